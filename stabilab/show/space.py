@@ -213,7 +213,7 @@ def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Ite
     named = tuple(with_unit(name, unit) for name in names)
     limits = [(f"{LIMIT}, {per * limit:.4g} {unit}", arc) for arc
               in (_cut(limit, box) if limit and limit > SMALL * max(box.half) else ())]
-    shown = [(style.OTHER_COLOURS[n % len(style.OTHER_COLOURS)],
+    shown = [(style.SURFACES[n % len(style.SURFACES)],
               replace(branch, name=f"{branch.name.capitalize()} of the separatrix{more}"))
              for n, branch in enumerate(branches) if _comes_in(branch, box)]
     return Space(named, per, box, tuple(shown), (*curves, *limits),

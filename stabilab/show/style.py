@@ -17,54 +17,67 @@ if TYPE_CHECKING:
 
     from ..equilibrium.result import CurveSegment, EquilibriumPoint
 
-# The hues of Okabe and Ito, darker: lines in them have a contrast of at least 3 on white, and colour-blind
-# readers tell them apart. YELLOW is for areas alone.
-BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY, BROWN = (
-    "#000000", "#C27F00", "#4A94E8", "#009E73", "#F0E442", "#005B9A", "#B03A00", "#BC6FA0", "#7A7A7A",
-    "#7A5C33")
-OUTCOME = {"bounded": BLUE, "spin-up": VERMILION, "separatrix": BLACK, "equilibrium": GREEN,
-           "undecided": YELLOW}
-SPIN = {1: VERMILION, 2: ORANGE, 3: PURPLE, 0: BROWN}  # axis of a spin-up, 0: none of the principal ones
-LOOK = {"bounded": BLUE, "changes": VERMILION, "conditional": ORANGE}  # of a headline
+# Three palettes that share no colour, so that none means two things on a page, a picture or in the explorer:
+# outcomes, axes, and what is drawn of neither. Black and greys have no meaning of their own: letters, dashes
+# and markers tell torque, momentum and separatrix apart. Any two of the colours that stand on one screen
+# differ by at least 12 of CIEDE2000, for readers without one of the three pigments too
+# (tests/show/test_palettes.py); lines have a contrast of at least 3 on white.
+BLACK, GREY, PALE = "#000000", "#757575", "#DDDDDD"
+BLUE, AMBER, VERMILION = "#0057B8", "#C88700", "#BE3200"  # stays; not decided; does not stay
+PLUM, TEAL, PINE = "#6E1060", "#0094A8", "#0E4636"        # axes 1, 2, 3
+VIOLET, SAGE, WINE = "#AA66FF", "#668855", "#880000"      # the motion itself; the first two of other series
+# the same hues for methods and printed curves, on pages that have neither outcomes nor axes
+ORANGE, SKY, GREEN, PURPLE = AMBER, TEAL, PINE, PLUM
+
+OUTCOME = {"bounded": BLUE, "spin-up": VERMILION, "separatrix": BLACK, "equilibrium": GREY,
+           "undecided": AMBER}
+LOOK = {"bounded": BLUE, "changes": VERMILION, "conditional": AMBER}  # of a headline
+AXES = (PLUM, TEAL, PINE)
+# areas: tints that are told apart as lines are; the axis of a spin-up is said by its hatch and a letter
+FILL = {"bounded": "#7FA9DB", "spin-up": "#C96845", "separatrix": "#4A4A4A", "equilibrium": "#969696",
+        "undecided": "#F8E878", "no case": "#D0D0D0"}
+AGAINST = "#E3A890"  # a spin-up against its axis
+HATCH = {1: "//", 2: "||", 3: "\\\\", 0: ".."}  # axis of a spin-up, 0: none of the principal ones
+LISTED = ("#99BB88", "#CCAAFF", "#555555", "#E2E2E2", "#858585")  # areas of other words, in order
 
 MEANING = {  # what a line or a point stands for -> how it is drawn
     "stable": {"color": BLUE, "linestyle": "-", "linewidth": 2.0},
     "unstable": {"color": VERMILION, "linestyle": "--", "linewidth": 1.8},
-    "undecided": {"color": GREY, "linestyle": ":", "linewidth": 2.0},
+    "undecided": {"color": AMBER, "linestyle": ":", "linewidth": 2.0},
     "separatrix": {"color": BLACK, "linestyle": "-", "linewidth": 1.9},
-    "separatrix 2": {"color": PURPLE, "linestyle": "-", "linewidth": 1.9},
+    "separatrix 2": {"color": GREY, "linestyle": "-", "linewidth": 1.9},
     "bounded": {"color": BLUE, "linestyle": "-", "linewidth": 1.4},
     "spin-up": {"color": VERMILION, "linestyle": "-", "linewidth": 1.4},
-    "crossing": {"color": GREEN, "linestyle": "-.", "linewidth": 1.6},
+    "crossing": {"color": GREY, "linestyle": "-.", "linewidth": 1.6},
     "level": {"color": GREY, "linestyle": "-", "linewidth": 0.6},
-    "fold": {"color": GREEN, "linestyle": "-", "linewidth": 1.6},
-    "printed": {"color": ORANGE, "linestyle": ":", "linewidth": 2.0},
+    "fold": {"color": BLACK, "linestyle": (0, (1, 1)), "linewidth": 1.6},
+    "printed": {"color": SAGE, "linestyle": ":", "linewidth": 2.0},
     "dividing": {"color": BLACK, "linestyle": "-.", "linewidth": 1.3},
-    "this motion": {"color": ORANGE, "linestyle": "-", "linewidth": 2.2},
+    "this motion": {"color": VIOLET, "linestyle": "-", "linewidth": 2.2},
 }
 MARKER = {
     "centre": {"marker": "o", "color": BLUE, "markersize": 6, "linestyle": "none"},
     "saddle": {"marker": "o", "markerfacecolor": "white", "markeredgecolor": VERMILION,
                "markeredgewidth": 1.6,
                "markersize": 6.5, "linestyle": "none"},
-    "degenerate": {"marker": "D", "color": GREEN, "markersize": 6, "linestyle": "none"},
-    "undecided": {"marker": "D", "markerfacecolor": "white", "markeredgecolor": GREY,
-                  "markeredgewidth": 1.8, "color": GREY, "markersize": 6, "linestyle": "none"},
+    "degenerate": {"marker": "D", "markerfacecolor": "white", "markeredgecolor": BLACK, "color": BLACK,
+                   "markeredgewidth": 1.4, "markersize": 6, "linestyle": "none"},
+    "undecided": {"marker": "D", "markerfacecolor": "white", "markeredgecolor": AMBER,
+                  "markeredgewidth": 1.8, "color": AMBER, "markersize": 6, "linestyle": "none"},
     "start": {"marker": "s", "color": BLACK, "markersize": 5, "linestyle": "none"},
-    "turning": {"marker": "^", "color": GREEN, "markersize": 6, "linestyle": "none"},
+    "turning": {"marker": "^", "color": BLACK, "markersize": 6, "linestyle": "none"},
 }
 EQUILIBRIA = {"stable": "stable equilibria", "unstable": "unstable equilibria",
               "undecided": "equilibria of undecided stability"}  # kind -> its words in a legend
 SPACE = {  # words of a legend -> how that is drawn in the space of rates
     "this motion": MEANING["this motion"], "start": MARKER["start"],
-    "nearest point of the separatrix": {"marker": "o", "color": YELLOW, "markeredgecolor": BLACK,
+    "nearest point of the separatrix": {"marker": "o", "color": PALE, "markeredgecolor": BLACK,
                                         "markersize": 6, "linestyle": "none"},
     "limit of |ω|": {"color": VERMILION, "linestyle": "--", "linewidth": 0.9},
     **{equilibrium: MEANING[kind] for kind, equilibrium in EQUILIBRIA.items()}}
-BRANCHES = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
-# surfaces beside a motion, which is orange, and their nearest point, a yellow ball
-OTHER_COLOURS = (SKY, GREEN, PURPLE, "#B59A6A")
-SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters
+SURFACES = ("#B4BABE", "#5F6467", "#EFEDE9", "#868B8F")  # of the separatrix, in order: greys
+SERIES = (BLACK, VIOLET, SAGE, WINE, GREY)               # one curve each for a list of parameters
+SCALE = ("#DCC8FF", VIOLET, "#2A0055")                   # of numbers on a map, from the least to the greatest
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
@@ -78,7 +91,7 @@ RC: dict[Any, Any] = {  # of Matplotlib
     "legend.fontsize": 8.5, "xtick.labelsize": 9, "ytick.labelsize": 9, "axes.linewidth": 0.8,
     "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.5, "axes.axisbelow": True,
     "legend.frameon": True, "legend.framealpha": 0.92, "legend.edgecolor": "#BBBBBB",
-    "lines.solid_capstyle": "round",
+    "lines.solid_capstyle": "round", "hatch.linewidth": 0.5,
     "mathtext.fontset": "dejavusans", "axes.formatter.use_mathtext": True, "svg.hashsalt": "stabilab",
 }
 
@@ -155,7 +168,8 @@ def _of_few_colours(image):
     """A Pillow image in 256 colours, those of the house among them: stripes below it make them common, and
     are cut off again."""
     from PIL import Image
-    ours = dict.fromkeys((BLACK, "#FFFFFF", GREY, BROWN, *BRANCHES, *OTHER_COLOURS))
+    ours = dict.fromkeys((BLACK, "#FFFFFF", GREY, BLUE, AMBER, VERMILION, *AXES, VIOLET, SAGE, WINE,
+                          *SURFACES, *FILL.values(), AGAINST))
     tall = Image.new("RGB", (image.width, image.height + 4 * len(ours)))
     tall.paste(image)
     for n, colour in enumerate(ours):

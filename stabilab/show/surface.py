@@ -218,14 +218,14 @@ def plotter(result: Space) -> Any:
     for phrase, places in result.curves:
         tube(share(places), LINE if phrase in style.SPACE else THIN, look(phrase)["color"])
     path, toward = share(result.path or np.empty((0, 3))), sight(result.view)
-    tube(path, LINE, style.ORANGE)
+    tube(path, LINE, style.VIOLET)
     for axis in range(3):
         wall = np.where(np.arange(3) == axis, -np.sign(toward[axis]), path)
         tube(wall, THIN, PALEST)
     for at, step in result.arrows:
         stage.add_mesh(pyvista.Cone(center=share(at), direction=np.divide(step, result.box.half), height=0.11,
                                     radius=0.04),
-                       color=style.ORANGE)
+                       color=style.VIOLET)
     for phrase, at in result.marks:
         location = share(at)
         stage.add_mesh(pyvista.Sphere(radius=BALL, center=location), color=look(phrase)["color"])
@@ -347,7 +347,7 @@ def summarise(case, result, meshes) -> dict:
 def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:
     """NAME.vtp (where vtk is installed), NAME.glb, NAME.stl; none of them needs GL. Returns their paths."""
     out.mkdir(parents=True, exist_ok=True)
-    writers = {"glb": lambda path: path.write_bytes(glb(meshes, style.BRANCHES)),
+    writers = {"glb": lambda path: path.write_bytes(glb(meshes, style.SURFACES)),
                "stl": lambda path: path.write_bytes(stl(meshes))}
     if present("vtkmodules"):
         writers = {"vtp": lambda path: _write_vtp(meshes, path), **writers}

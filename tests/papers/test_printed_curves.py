@@ -20,7 +20,7 @@ def plt():
         yield found
 
 
-def dashed(ax, colour=style.GREEN):
+def dashed(ax, colour=style.SAGE):
     """The data of the dashed lines of a colour in a panel."""
     return [np.array(line.get_data_3d() if ax.name == "3d" else line.get_data(), float)
             for line in ax.lines if line.get_linestyle() == "--" and line.get_color() == colour]
@@ -200,7 +200,7 @@ def test_figure_17_has_the_fourth_surface_as_printed_and_how_far_it_is_off(plt):
         true = true_fourth(a, b)
         # the drawn vertices stand up to 0.1 apart where they leave the panel
         assert 0 <= value - to_nearest(points[:, inside], true).max() < 0.1
-        drawn = np.concatenate([line.get_data() for line in ax.lines if line.get_color() == style.SKY], axis=1)
+        drawn = np.concatenate([line.get_data() for line in ax.lines if line.get_color() == style.WINE], axis=1)
         Y, x3 = drawn[:, np.isfinite(drawn[0])] + [[b], [0]]
         Y, x3 = (part[np.abs(x3 / Y) < 0.999] for part in (Y, x3))
         energy = Y**2 + x3**2 - 4 * (b - a) * Y - 2 * np.log((Y + x3) / (Y - x3))
@@ -228,8 +228,8 @@ def test_figure_6_has_the_fourth_surface_as_printed_and_how_far_it_is_off(plt):
     said = numbers(r"as printed: up to ([\d.]+) off", figure(6).caption)[0]
     assert said == pytest.approx(to_nearest(printed[:, inside], true).max(), abs=0.006)
     for ax in figure(6).draw(plt).axes[:2]:
-        solid = [np.array(line.get_data()) for line in ax.lines if line.get_color() == style.SKY]
-        for curves, shift, wheel in ((dashed(ax, style.ORANGE), 0, B), (solid, A, B - A)):
+        solid = [np.array(line.get_data()) for line in ax.lines if line.get_color() == style.WINE]
+        for curves, shift, wheel in ((dashed(ax, style.SAGE), 0, B), (solid, A, B - A)):
             assert len(curves) >= 3
             for x1, x2 in curves:
                 x1, x2 = x1[np.abs(x2) > 0.02] + shift, x2[np.abs(x2) > 0.02]

@@ -333,13 +333,12 @@ def test_the_space_of_the_rates_draws_in_a_browser(tmp_path):
     index = report.write([CASES / "minor-axis-100.toml"], tmp_path / "report")
     assert _visit(index, tmp_path / "page.png", place="#space") == []  # which unfolds its section
     pixels = np.asarray(Image.open(tmp_path / "page.png").convert("RGB")).reshape(-1, 3).astype(int)
-    # of the first branch, in some light, and let through by the white behind it: neither changes the hue
-    sky = np.array([int(style.SKY[n:n + 2], 16) for n in (1, 3, 5)])
-    hues, hue = pixels - pixels.min(axis=1, keepdims=True), sky - sky.min()
+    # of the motion, in some light, and let through by the white behind it: neither changes the hue
+    violet = np.array([int(style.VIOLET[n:n + 2], 16) for n in (1, 3, 5)])
+    hues, hue = pixels - pixels.min(axis=1, keepdims=True), violet - violet.min()
     share = hues @ hue / (np.linalg.norm(hues, axis=1) * np.linalg.norm(hue) + 1e-9)
-    # lines of the page's own blue have no red
-    coloured = (share > 0.997) & (np.ptp(pixels, axis=1) > 40) & (pixels.min(axis=1) > 60)
-    assert coloured.mean() > 0.01
+    coloured = (share > 0.997) & (np.ptp(pixels, axis=1) > 40) & (pixels.min(axis=1) > 40)
+    assert coloured.mean() > 0.001
 
 
 @pytest.mark.slow

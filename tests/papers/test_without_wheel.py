@@ -26,7 +26,7 @@ def panels():
 def lines(ax, dashed):
     return [np.array(line.get_data(), float) for line in ax.lines
             if (line.get_linestyle() == "--") == dashed and line.get_marker() in ("None", None, "")
-            and line.get_color() in (style.GREEN, style.BLACK, style.PURPLE)]
+            and line.get_color() in (style.SAGE, style.BLACK, style.GREY)]
 
 
 def energy(alpha):

@@ -175,7 +175,7 @@ def test_stl_and_glb_hold_every_triangle():
     data = mesh.stl([made])
     assert struct.unpack("<I",
                          data[80:84])[0] == len(made.triangles) and len(data) == 84 + 50 * len(made.triangles)
-    data = mesh.glb([made], style.BRANCHES)
+    data = mesh.glb([made], style.SURFACES)
     magic, version, length = struct.unpack("<4sII", data[:12])
     size, kind = struct.unpack("<II", data[12:20])
     document = json.loads(data[20:20 + size])

@@ -216,7 +216,7 @@ def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
     def signs(name):
         ax = stabilab.plot.phase(load(name))
         return sorted(float(np.sign(line.get_ydata()[len(line.get_ydata()) // 2])) for line in ax.get_lines()
-                      if line.get_color() == ORANGE)
+                      if line.get_color() == MOTION)
     assert signs("torque-free-body") == [1.0] and signs("minor-axis-100") == [-1.0, 1.0]
 
 
@@ -227,7 +227,7 @@ def test_a_motion_all_but_at_rest_in_a_single_well_is_drawn_between_its_walls():
     stabilab.plot.phase(load("charged-body-small-torque"), ax=ax)
     low, high = ax.get_ylim()
     assert math.isfinite(low) and math.isfinite(high) and high - low > 1e3 * abs(
-        np.ptp(next(line for line in ax.get_lines() if line.get_color() == ORANGE).get_ydata()))
+        np.ptp(next(line for line in ax.get_lines() if line.get_color() == MOTION).get_ydata()))
 
 
 @pytest.mark.parametrize("size", [1, 1e-2, 1e-4])
@@ -265,7 +265,7 @@ def test_a_bounded_motion_lies_in_its_phase_plane_whole():
     """That of uncertain-separatrix swings to 95 % of the way to a saddle on one side, and farther than a turn
     and a third from the middle on the other."""
     ax = stabilab.plot.phase(load("uncertain-separatrix"))
-    (low, high), motion = ax.get_xlim(), [line for line in ax.get_lines() if line.get_color() == ORANGE]
+    (low, high), motion = ax.get_xlim(), [line for line in ax.get_lines() if line.get_color() == MOTION]
     turns = np.concatenate([line.get_xdata() for line in motion])
     ends = motion[0].get_ydata()[[0, -1]]
     assert low < turns.min() and turns.max() < high and np.abs(ends).max() < 1e-3 * np.abs(
@@ -364,7 +364,7 @@ def spatial(ax, colour):
     return [np.array(line.get_data_3d()).T for line in ax.get_lines() if line.get_color() == colour]
 
 
-ORANGE, BLACK, BLUE, VERMILION = style.ORANGE, style.BLACK, style.BLUE, style.VERMILION
+MOTION, BLACK, BLUE, VERMILION = style.VIOLET, style.BLACK, style.BLUE, style.VERMILION
 
 
 def of_free_body(H, D, wheel=(0, 0, 0)):
@@ -376,7 +376,7 @@ def test_on_the_momentum_sphere_the_motion_keeps_its_energy_and_the_separatrix_t
     ax = stabilab.plot.sphere(load("torque-free-body"))
     motion, separatrix = (np.concatenate([line[np.isfinite(line).all(axis=1)] for line in spatial(ax, colour)
                                           if len(line) > 2])
-                          for colour in (ORANGE, BLACK))
+                          for colour in (MOTION, BLACK))
     size = np.linalg.norm(motion, axis=1)
     assert np.ptp(size) < 1e-9 * size[0]
     start = np.array([3, 2, 1]) * (0.2, 0.4, 0.3)
@@ -392,7 +392,7 @@ def test_under_a_torque_on_the_minor_axis_all_lines_stay_on_the_circle_of_the_pa
     case = load("minor-axis-100")
     ax = stabilab.plot.sphere(case)
     radius = math.hypot(case.state[0] + case.scene.a, case.state[1])
-    lines = [line for line in spatial(ax, ORANGE) + spatial(ax, BLACK) if len(line) > 10]
+    lines = [line for line in spatial(ax, MOTION) + spatial(ax, BLACK) if len(line) > 10]
     assert len(lines) >= 4
     for line in lines:
         assert np.hypot(line[:, 0] + case.scene.a,
@@ -404,7 +404,7 @@ def test_a_motion_in_space_has_its_shadows_on_the_walls_and_arrows_along_the_flo
     """The flow by Euler's equations written out here, in the numbers of the case."""
     case = load(name)
     ax = stabilab.plot.space(case, units="si")
-    path = np.array([line for line in ax.get_lines() if line.get_color() == ORANGE][0].get_data_3d()).T
+    path = np.array([line for line in ax.get_lines() if line.get_color() == MOTION][0].get_data_3d()).T
     shadows = [np.array(line.get_data_3d()).T for line in ax.get_lines() if line.get_color() == "#BDBDBD"]
     for axis, shadow in zip(range(3), shadows, strict=True):
         others = [n for n in range(3) if n != axis]
@@ -413,7 +413,7 @@ def test_a_motion_in_space_has_its_shadows_on_the_walls_and_arrows_along_the_flo
     wheel, torque = (np.array([float(v) for v in case.scene.vector(effect)])
                      for effect in ("gyrostat", "constant_torque"))
     arrows = [np.array(line.get_data_3d()).T for line in ax.get_lines()
-              if line.get_color() == ORANGE and len(line.get_data_3d()[0]) == 3]
+              if line.get_color() == MOTION and len(line.get_data_3d()[0]) == 3]
     assert len(arrows) == 3
     for barb, head, other in arrows:
         tail = (barb + other) / 2

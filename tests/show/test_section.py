@@ -15,7 +15,7 @@ from stabilab.show.plot import subject as which
 from stabilab.unreduced.periodic import crossed, neighbours_of, returns
 from tests.shared import case as load
 
-ORANGE, BLUE, SKY, VERMILION, PURPLE = style.ORANGE, style.BLUE, style.SKY, style.VERMILION, style.PURPLE
+MOTION, BLUE, VERMILION, SAGE = style.VIOLET, style.BLUE, style.VERMILION, style.SAGE
 D, M, WHEEL = np.array([1.2412, .3937,
                         1.3650]), np.array([.0987, .8450, .5255]), np.array([-.5224, .8309, .1914])
 ISLAND = stabilab.Scene(stabilab.Body(D.tolist()), stabilab.Gyrostat(WHEEL.tolist()),
@@ -77,7 +77,7 @@ def test_a_passage_that_is_undone_within_the_same_step_is_found():
 @pytest.mark.slow
 def test_passages_in_an_island_go_round_the_marked_periodic_motion(island):
     """The mark is a fixed point of the map (DOP853 brings it back), and the motion's passages surround it."""
-    (mark,), own = dots(island, BLUE), dots(island, ORANGE)
+    (mark,), own = dots(island, BLUE), dots(island, MOTION)
     from stabilab.unreduced.periodic import in_the_middle
     orbit = in_the_middle(ISLAND, START)
     (back,) = passed(orbit.state, orbit.section.axis, orbit.section.level, 2, 1.5 * orbit.period)[-1:]
@@ -94,7 +94,7 @@ def test_neighbours_inside_the_island_stay_and_those_far_outside_leave(island):
     from scipy.integrate import solve_ivp
 
     from stabilab.unreduced.periodic import in_the_middle
-    (mark,), own, stay, leave = (dots(island, colour) for colour in (BLUE, ORANGE, SKY, VERMILION))
+    (mark,), own, stay, leave = (dots(island, colour) for colour in (BLUE, MOTION, BLUE, VERMILION))
     assert np.abs(stay - mark).max() <= np.abs(own - mark).max() and len(stay) == 2 * 61 and len(leave)
     orbit = in_the_middle(ISLAND, START)
     starts = neighbours_of(np.array(orbit.state), returns(ISLAND, START, orbit.section, 1)[1][0],
@@ -111,7 +111,7 @@ def test_axes_have_the_two_other_rates_in_the_units_asked_for():
     deg, si = (stabilab.plot.section(case, units=units, passages=5) for units in ("deg", "si"))
     # passages of the third
     assert (si.get_xlabel(), si.get_ylabel()) == (r"$\omega_1$ (rad/s)", r"$\omega_2$ (rad/s)")
-    assert dots(deg, ORANGE) == pytest.approx(np.degrees(dots(si, ORANGE))) and "(deg/s)" in deg.get_xlabel()
+    assert dots(deg, MOTION) == pytest.approx(np.degrees(dots(si, MOTION))) and "(deg/s)" in deg.get_xlabel()
     plt.close("all")
 
 
@@ -121,7 +121,7 @@ def test_a_periodic_motion_passes_at_one_place_once_a_period_and_neighbours_each
     the reduced motion."""
     case = load("minor-axis-100")
     ax = stabilab.plot.section(case, neighbours=3, passages=10)
-    own, others = dots(ax, ORANGE), dots(ax, SKY)
+    own, others = dots(ax, MOTION), dots(ax, BLUE)
     assert np.ptp(own, axis=0).max() < 1e-9 and len(np.unique(others.round(6), axis=0)) == 3
     times, _ = returns(case.scene, case.state, crossed(case.scene, case.state), 3)
     assert np.diff(times) == pytest.approx(float(stabilab.period(case.scene, case.state)), rel=1e-10)
@@ -136,7 +136,7 @@ def test_of_a_motion_that_spins_up_the_passages_until_that_is_certain_are_drawn(
     one = subject.subject(load("cubesat-3u"))
     until, ax = which.certain_from(one), stabilab.plot.section(one.case)
     times, places = returns(one.twin, one.state, crossed(one.twin, one.state, until), 100)
-    assert len(dots(ax, ORANGE)) == np.count_nonzero(times <= until) < 100
+    assert len(dots(ax, MOTION)) == np.count_nonzero(times <= until) < 100
     assert "until spin-up about the minor axis is certain" in ax.get_title()
     plt.close("all")
 
@@ -144,7 +144,7 @@ def test_of_a_motion_that_spins_up_the_passages_until_that_is_certain_are_drawn(
 def test_several_motions_are_drawn_on_the_plane_of_the_first():
     scene, states = load("minor-axis-100").scene, np.array([[2.5, 4, .1], [2.6, 4, .1], [2.4, 4, .1]])
     ax = stabilab.plot.section(scene, states, passages=6)
-    assert len(dots(ax, ORANGE)) == 6 and len(np.unique(dots(ax, PURPLE).round(6), axis=0)) == 2
+    assert len(dots(ax, MOTION)) == 6 and len(np.unique(dots(ax, SAGE).round(6), axis=0)) == 2
     plt.close("all")
 
 

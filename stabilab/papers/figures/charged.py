@@ -127,8 +127,8 @@ def _angles(family: str, more: str = ""):
     tilts = [np.hypot(*a[:, :2].T).max() for a in _state(family, "printed", "angles")]
     until = dict.fromkeys(f"{float(horizon(b)):.2f}" for b in _bodies(family))
     return (f"The print lets the tilt of psi and phi swing to {listed(tilts)} rad as if it were small. In "
-            f"truth 0.1 rad is outgrown after {listed(until, '{}')} s (green), psi turns back before pi/2, "
-            f"phi runs on, and theta is not r0 t. {more}{_CUT}.")
+            f"truth 0.1 rad is outgrown after {listed(until, '{}')} s (dash-dotted), psi turns back before "
+            f"pi/2, phi runs on, and theta is not r0 t. {more}{_CUT}.")
 
 
 def _circle(family: str, more: str = ""):

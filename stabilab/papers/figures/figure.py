@@ -108,7 +108,7 @@ def _of_family(family: Family, paper, number, title, caption, lines, models, loo
 
 
 # --- Level curves of an integral in a plane
-PRINTED = style.MEANING["printed"] | {"color": style.GREEN, "linestyle": "--", "linewidth": 1.6}
+PRINTED = style.MEANING["printed"] | {"linestyle": "--", "linewidth": 1.6}
 GRID_POINTS = 1201  # of the grid on which a level curve is traced, along each axis
 PIECES = 16    # of a piece of a curve, where it is cut off at an edge
 

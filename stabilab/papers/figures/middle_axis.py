@@ -135,7 +135,7 @@ def surfaces(plt: ModuleType):
     style.legend(figure, [("centres (stable)", style.MEANING["stable"]),
                           ("saddles (unstable)", style.MEANING["unstable"]),
                      ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
-                     ("periodic motions", {"color": style.SKY, "linewidth": 1.0}),
+                     ("periodic motions", {"color": style.BLUE, "linewidth": 1.0}),
                           ("one figure-eight", EIGHT_LINE),
                           ("as printed: (71)", PRINTED),
                      *((f"separatrix, {name}", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"})
@@ -144,7 +144,7 @@ def surfaces(plt: ModuleType):
 
 
 EIGHT_LINE = {"color": style.BLACK, "linewidth": 2.2}  # of the two loops of one saddle
-LOOPS = (style.SKY, style.YELLOW, style.GREY, style.PURPLE)  # colours of the parts of the figure-eight
+LOOPS = style.SURFACES  # of the parts of the figure-eight
 # of each part, and the width of its mesh: the small loop of branch 1 stands within that of branch 2
 OPAQUE, THIN = (1.0, 0.6, 0.45, 0.6), (0.1, 0.3, 0.1, 0.3)
 
@@ -167,7 +167,7 @@ def _nested(ax, scene):
         ax.plot(np.where(shown, x1, np.nan), np.where(shown, x3, np.nan), 0 * x1, **style.MEANING["stable"])
     for g in (-1.8, -1.0, -0.5, 0.5, 1.0, 1.8):
         for height in (0.4, 0.8):
-            ax.plot(*_upright(_tube(scene, (1 / g - scene.a, height, g))), color=style.SKY, linewidth=1.0)
+            ax.plot(*_upright(_tube(scene, (1 / g - scene.a, height, g))), color=style.BLUE, linewidth=1.0)
     ax.plot(*_upright(_tube(scene, table.START_MIDDLE)), **style.MEANING["this motion"])
     ax.plot(*_upright(np.array([table.START_MIDDLE])), **style.MARKER["start"])
     for curve in printed_level(scene):
@@ -221,8 +221,8 @@ def projections(plt: ModuleType):
     return figure
 
 
-LINE = style.MEANING["printed"] | {"color": style.PURPLE}  # orange is the motion's
-FOURTH = {"color": style.SKY, "linewidth": 1.8, "zorder": 1.5}  # below the plane that its ends tend to
+LINE = style.MEANING["printed"]
+FOURTH = {"color": style.WINE, "linewidth": 1.8, "zorder": 1.5}  # below the plane that its ends tend to
 VIEW = ((-8.0, 4.5), (-6.25, 6.25))  # of x1 and x3, in every panel of Fig. 17
 
 

@@ -294,12 +294,12 @@ def surfaces(plt):
     return figure
 
 
-SIDES = {"left": style.SKY, "right": style.YELLOW}
+SIDES = dict(zip(("left", "right"), style.SURFACES))
 
 
 # of the circles of Fig. 7; the fourth is that of the paper's start
 RADII = (2.0, 3.0, 4.0, 4.825971404805462, 5.5)
-# lighter inside: blue, red and orange have meanings
+# lighter inside: the hues have meanings
 SHADES = ("#D9D9D9", "#B8B8B8", "#969696", "#6E6E6E", "#303030")
 
 
@@ -405,8 +405,8 @@ def contour_map(plt):
     return figure
 
 
-EDGE = {"color": style.PURPLE, "linewidth": 1.4}
-FOURTH = {"color": style.SKY, "linewidth": 1.8}
+EDGE = {"color": style.GREY, "linewidth": 1.4}
+FOURTH = {"color": style.WINE, "linewidth": 1.8}
 PRINTED_FOURTH = style.MEANING["printed"] | {"linestyle": "--", "linewidth": 1.6}
 
 

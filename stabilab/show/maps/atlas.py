@@ -26,7 +26,7 @@ from ..axes import axes_of
 from ..data import as_json, csv_lines, endless
 from ..terminal import lettered
 from ..units import SHORT, Units, with_unit
-from .shades import FATES, light, limits_of, of_every_point, spinning, unit
+from .shades import FATES, limits_of, of_every_point, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, per_cent, write
 from .sweep import DOES as OF_POINTS
 
@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
 
 # --- How directions, axes and fates of an atlas are named, and the colour of each fate
-# of undecided cells: where one may exist, where one is seen
-ISLAND_COLOURS = {1: light(style.GREY, 0.75), 2: light(style.BLACK, 0.8)}
 DOES = OF_POINTS | {Fate.EQUILIBRIUM: ("keep a steady rotation", "keeps a steady rotation")}
 
 
@@ -74,11 +72,16 @@ def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
     return FATES[Fate(fate)][0] + ("", ", an island may exist", ", an island is seen")[island]
 
 
-def kind_colour(fate: int, axis: int, island: int = 0) -> Any:
-    """Red, green and blue, 0 to 1."""
+def kind_colour(fate: int, axis: int) -> str:
+    """The colour of its cells; which axis and which island, a hatch says (`kind_hatch`)."""
     if fate == Fate.SPIN_UP:
         return spinning(axis)
-    return ISLAND_COLOURS.get(island) or light(FATES[Fate(fate)][1], 0.8)
+    return FATES[Fate(fate)][1]
+
+
+def kind_hatch(fate: int, axis: int, island: int = 0) -> str:
+    """The hatch of its cells: that of the axis of a spin-up, or of where an island may exist, or is seen."""
+    return style.HATCH[abs(axis)] if fate == Fate.SPIN_UP else ("", "o", "O")[island]
 
 
 def kinds(atlas: Atlas,

@@ -14,14 +14,26 @@ from ...errors import InputError, printable
 from ...maps.atlas import Atlas
 from ...maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS
 from ...maps.pointed import AXES, DEEPEST, places_of
+from ...orbit.result import Fate
 from ...packages import demand
 from .. import style
 from ..axes import axes_of
 from ..report import html
 from ..units import SHORT, Units
-from .atlas import answer, does, in_time, kind_colour, kind_words, kinds, limit_words, shown_name, wheel_words
+from .atlas import (
+    answer,
+    does,
+    in_time,
+    kind_colour,
+    kind_hatch,
+    kind_words,
+    kinds,
+    limit_words,
+    shown_name,
+    wheel_words,
+)
 from .atlas import text as in_words
-from .shades import light
+from .shades import hatched, light, scale
 from .sweep import COUNTS
 
 # --- The map of the sphere
@@ -78,9 +90,9 @@ PIXELS = 1500  # across one map
 MAPS = 6  # of a picture
 LOG = 8  # times of more than this ratio are shown by their logarithm
 COLOURED_BY = ("fate", "when", "equilibria", "level")
-NEVER, UNKNOWN = light(style.GREY, 0.25), light(style.YELLOW, 0.6)
-COUNTED = (light(style.GREY, 0.35), light(style.SKY, 0.7), light(style.ORANGE, 0.7), light(style.GREEN, 0.6),
-           light(style.PURPLE, 0.7))
+NEVER, UNKNOWN = light(style.FILL["bounded"], 1.0), light(style.FILL["undecided"], 1.0)
+COUNTED = tuple(light(style.BLACK, 0.08 + 0.1 * n) for n in range(5))  # greys: the words have the numbers
+COARSE = 5  # pixels of a map to a point of its hatches
 
 
 def write_picture(atlas: Atlas, path: Path, units: Units, kind: str | None = None,
@@ -138,8 +150,8 @@ def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) 
     directions, inside = off_map(x.ravel() * ACROSS, y.ravel() * UP)
     image = np.ones((len(inside), 4))
     image[~inside, 3] = 0
-    image[inside, :3] = colours(atlas, kind,
-                                times)[atlas.leaves.holding(wheel, places_of(directions[inside]))]
+    cells = atlas.leaves.holding(wheel, places_of(directions[inside]))
+    image[inside, :3] = colours(atlas, kind, times)[cells]
     ends = (-ACROSS, ACROSS, -UP, UP)
     ax.imshow(image.reshape(PIXELS // 2, PIXELS, 4), origin="lower", extent=ends, interpolation="antialiased",
               interpolation_stage="rgba")
@@ -150,8 +162,22 @@ def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) 
     for axis in range(3):
         for piece in pieces(circle(axis)):
             ax.plot(*piece.T, color=style.BLACK, linewidth=0.5, alpha=0.5)
+    if kind == "fate":
+        labels = np.full(len(inside), -1)
+        labels[inside] = classes(atlas, kind)[0][cells]
+        coarse = (slice(COARSE // 2, None, COARSE),) * 2
+        on = lambda values: values.reshape(PIXELS // 2, PIXELS)[coarse]
+        hatched(ax, on(x)[0] * ACROSS, on(y)[:, 0] * UP, on(labels),
+                {n: (kind_hatch(*key), _letter(atlas, *key)) for n, (key, _, _) in enumerate(kinds(atlas))})
     ax.plot(*rim().T, color=style.BLACK, linewidth=0.9)
     _points(ax, atlas, wheel, plain)
+
+
+def _letter(atlas: Atlas, fate: int, axis: int, island: int) -> str:
+    """The name of the axis of a spin-up, as it stands in its area."""
+    if fate != Fate.SPIN_UP or not axis:
+        return ""
+    return axes_of(atlas.asked.case).signed(abs(axis), axis).partition(" ")[0].replace("-", "\u2212")
 
 
 def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
@@ -218,13 +244,13 @@ def _known(atlas: Atlas) -> np.ndarray:
 def colours(atlas: Atlas, kind: str, times: Any) -> np.ndarray:
     """(n, 3): red, green and blue of every cell, 0 to 1."""
     if kind != "when":
-        which, _, of, _ = classes(atlas, kind)
-        return np.array(of)[which]
-    import matplotlib
-    scale, _, item = times
+        from matplotlib.colors import to_rgb
+        which, _, looks, _ = classes(atlas, kind)
+        return np.array([to_rgb(look["facecolor"]) for look in looks])[which]
+    spread, _, item = times
     resolved, low = _known(atlas), atlas.records["when_low"]
     out = np.where(np.isinf(low)[:, None], NEVER, UNKNOWN)
-    out[resolved] = matplotlib.colormaps["cividis_r"](scale(low[resolved] * item))[:, :3]
+    out[resolved] = scale().reversed()(spread(low[resolved] * item))[:, :3]
     return out
 
 
@@ -236,18 +262,21 @@ SAID = {"level": lambda v: f"the fate is {LEVELS[v]}" if v else "the fate is und
 
 
 def classes(atlas: Atlas, kind: str) -> tuple[np.ndarray, list[str], list[Any], list[str]]:
-    """((n,) of which class each cell is; of each class its words, its colour, and how a legend tells it)."""
+    """((n,) of which class each cell is; of each class its words, its look, and how a legend tells it)."""
     if kind == "fate":
         result, which = kinds(atlas), np.zeros(len(atlas.records), int)
         for n, (_, rows, _) in enumerate(result):
             which[rows] = n
         phrases = [kind_words(atlas, *key) for key, _, _ in result]
-        return which, phrases, [kind_colour(*key) for key, _, _ in result], [
+        looks = [{"facecolor": kind_colour(*key[:2]), "edgecolor": style.BLACK, "linewidth": 0.5,
+                  "hatch": kind_hatch(*key)} for key, _, _ in result]
+        return which, phrases, looks, [
             f"{word}: {100 * fraction:.3g} %" for word, (_, _, fraction) in zip(phrases, result)]
     present, which = np.unique(atlas.records[kind], return_inverse=True)
     phrases = [SAID[kind](int(value)) for value in present]
-    return which.ravel(), phrases, [COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)]
-                                  for n, value in enumerate(present)], phrases
+    looks = [{"facecolor": COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)], "edgecolor": style.GREY}
+             for n, value in enumerate(present)]
+    return which.ravel(), phrases, looks, phrases
 
 
 def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any, units: Units) -> None:
@@ -255,23 +284,23 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
     from matplotlib.cm import ScalarMappable
     from matplotlib.ticker import LogLocator, NullFormatter
     if kind == "when":
-        scale, name, _ = times
-        bar = figure.colorbar(ScalarMappable(scale, "cividis_r"), ax=axes, location="bottom", shrink=0.7,
-                              aspect=40, pad=0.02,
+        spread, name, _ = times
+        bar = figure.colorbar(ScalarMappable(spread, scale().reversed()), ax=axes, location="bottom",
+                              shrink=0.7, aspect=40, pad=0.02,
                               label=f"time to {limit_words(atlas, units)} ({name})")
-        if scale.vmax > LOG * scale.vmin > 0:
+        if spread.vmax > LOG * spread.vmin > 0:
             bar.ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value:.4g}")
         bar.ax.xaxis.set_minor_formatter(NullFormatter())
         resolved, low = _known(atlas), atlas.records["when_low"]
         printed = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~resolved & ~np.isinf(low))]
-        rows = [(phrase, colour) for colour, phrase, cells in printed if cells.any()]
+        rows = [(phrase, {"facecolor": colour, "edgecolor": style.GREY})
+                for colour, phrase, cells in printed if cells.any()]
     else:
         _, _, of, text = classes(atlas, kind)
         rows = list(zip(text, of))
     if rows:
-        looks = {phrase: {"facecolor": colour, "edgecolor": style.GREY} for phrase, colour in rows}
-        axes[-1].legend(*style.explained(looks), loc="upper center", bbox_to_anchor=(0.5, 0.0),
+        axes[-1].legend(*style.explained(rows), loc="upper center", bbox_to_anchor=(0.5, 0.0),
                         ncols=min(2, len(rows)), borderaxespad=0.2)
 
 
@@ -318,10 +347,11 @@ def _tables(atlas: Atlas, units: Units) -> dict[str, tuple[np.ndarray, dict[str,
     printed = {}
     for kind in TITLES:
         if kind != "when":
-            which, text, of, legend = classes(atlas, kind)
-            shades = list(map(_bytes, of))
-            printed[kind] = which, {"words": text, "colours": shades,
-                                 "legend": [list(pair) for pair in zip(legend, shades)]}
+            which, text, looks, legend = classes(atlas, kind)
+            shades = [_bytes(look["facecolor"]) for look in looks]
+            hatches = [look.get("hatch", "")[:1] for look in looks]
+            printed[kind] = which, {"words": text, "colours": shades, "hatches": hatches,
+                                    "legend": [list(row) for row in zip(legend, shades, hatches)]}
         elif atlas.asked.stated_limit is not None:
             printed[kind] = _shaded(atlas, units)
     return printed
@@ -330,7 +360,6 @@ def _tables(atlas: Atlas, units: Units) -> dict[str, tuple[np.ndarray, dict[str,
 def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:
     """Times in shades by their logarithm; what is never reached and what is not known beside them."""
     style.quiet_matplotlib()
-    import matplotlib
     low, high = atlas.records["when_low"], atlas.records["when_high"]
     resolved = np.isfinite(low) & np.isfinite(high)
     heights = np.log(np.maximum(low[resolved], 1e-300))
@@ -338,7 +367,7 @@ def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:
     step = (largest - smallest) / (SHADES - 1) or 1.0
     which = np.where(np.isinf(low), SHADES, SHADES + 1)
     which[resolved] = np.round((heights - smallest) / step).astype(int)
-    colours = [*(_bytes(matplotlib.colormaps["cividis_r"](n / (SHADES - 1))) for n in range(SHADES)),
+    colours = [*(_bytes(scale().reversed()(n / (SHADES - 1))) for n in range(SHADES)),
                _bytes(NEVER), _bytes(UNKNOWN)]
     name, item = units.times(float(np.exp(np.median(heights))) if len(heights) else 1.0)
     marks = _marks(np.exp(smallest) * item, np.exp(largest) * item) if len(heights) else []
@@ -394,4 +423,6 @@ def _named(atlas: Atlas, units: Units) -> list[dict[str, Any]]:
 
 
 def _bytes(colour: Any) -> list[int]:
+    if isinstance(colour, str):
+        return [int(colour[n:n + 2], 16) for n in (1, 3, 5)]
     return [round(255 * float(part)) for part in colour[:3]]

@@ -195,10 +195,10 @@ CURVE_LOOKS = {"fold": "fold", "pitchfork": "crossing", "crossing": "crossing", 
 TOLD = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "branches cross", "touch": "branches touch",
         "infinity": "an equilibrium at infinity",
         "axis": "torque on a principal axis", "curve": "curve of equilibria"}
-FILLS = {0: "#FFFFFF", 1: light(style.YELLOW, 0.25), 2: light(style.SKY, 0.28), 3: light(style.PURPLE, 0.3),
-         4: light(style.BLUE, 0.38),
-         ENDLESS: light(style.GREY, 0.3)}
-OTHER = light(style.ORANGE, 0.35)
+# number of equilibria -> its region: greys, as the numbers stand on them
+FILLS = {0: "#FFFFFF", 1: light(style.BLACK, 0.07), 2: light(style.BLACK, 0.14), 3: light(style.BLACK, 0.21),
+         4: light(style.BLACK, 0.28), ENDLESS: light(style.VIOLET, 0.25)}
+OTHER = light(style.BLACK, 0.35)
 SMALL = 0.004  # of the whole: regions below bear no number
 
 

@@ -18,7 +18,7 @@ from ..plot import subject as subjects
 from ..plot.subject import Measures, Subject, measures, subject
 from ..terminal import lettered
 from ..units import number
-from .shades import light
+from .shades import scale as colours_of_numbers
 
 # --- Chaos as a picture: the Poincare section of a motion, beside it MEGNO of all motions that start on its
 # plane; or MEGNO over time
@@ -46,7 +46,7 @@ def write(case: Any, result: Chaos, out: str | Path) -> Path:
 
 
 def _over_time(ax: Any, case: Any, result: Chaos) -> None:
-    ax.plot(result.times, result.history, marker="o", color=style.BLUE)
+    ax.plot(result.times, result.history, marker="o", color=style.VIOLET)
     ax.axhline(2, color=style.GREY, linewidth=0.8)
     if not np.isfinite(result.history).any():  # nothing that an axis could be made from
         ax.set_xlim(result.times[0], result.times[-1])
@@ -77,8 +77,8 @@ def _map(figure: Any, ax: Any, beside: Any, item: Subject, until: float) -> None
     look = {"origin": "lower", "extent": extent, "aspect": "auto", "interpolation": "nearest"}
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
-    ax.imshow(leaving.T, cmap=ListedColormap([light(style.VERMILION)]), **look)
-    shown = ax.imshow(result.megno.T, cmap="cividis", vmin=0, vmax=TOP, **look)
+    ax.imshow(leaving.T, cmap=ListedColormap([style.FILL["spin-up"]]), **look)
+    shown = ax.imshow(result.megno.T, cmap=colours_of_numbers(), vmin=0, vmax=TOP, **look)
     figure.colorbar(shown, ax=ax, label="MEGNO (2 on tori, grows where chaotic)", extend="both")
     at = item.state
     if abs(at[plane.axis] - plane.level) < 1e-9 * max(map(abs, at)):
@@ -91,7 +91,7 @@ def _map(figure: Any, ax: Any, beside: Any, item: Subject, until: float) -> None
     handles, phrases = list(printed.legend_handles), [text.get_text() for text in printed.get_texts()]
     printed.remove()
     if np.isfinite(leaving).any():
-        handles = [*handles, Patch(facecolor=light(style.VERMILION))]
+        handles = [*handles, Patch(facecolor=style.FILL["spin-up"])]
         phrases = [*phrases, OUTCOMES[Fate.SPIN_UP].legend]
     figure.legend(handles, phrases, loc="outside lower center", ncols=5)
 

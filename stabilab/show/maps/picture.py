@@ -37,6 +37,7 @@ COUNTS = tuple(column.name for answer in ANSWERS.values() for column in answer.c
 TOGETHER = (*(tuple(column.name for column in answer.columns if column.kind == "f8" and column.unit == unit)
               for answer in ANSWERS.values()
               for unit in dict.fromkeys(item.unit for item in answer.columns if item.kind == "f8")), COUNTS)
+BEHIND = 0.85  # of the colour of an area behind curves
 NUMBERS = tuple(item.name for answer in ANSWERS.values() for item in answer.columns if item.kind != "i1")
 
 
@@ -56,7 +57,8 @@ def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> 
     for ax, names in zip(axes[:, 0], panels):
         if behind in data:
             _bands(ax, x[order], np.asarray(data[behind])[order], shades.looks(data, behind))
-            rows |= shades.flag_legend(data, behind)
+            rows |= {text: patch | {"facecolor": shades.light(patch["facecolor"], BEHIND)}
+                     for text, patch in shades.flag_legend(data, behind).items()}
         _lines(ax, data, x, order, names)
         if len(ax.lines) > 1:  # beside the panel, whose curves it would cover
             ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -80,7 +82,7 @@ def _bands(ax, x, flags, look):
     edges = np.concatenate([[x[0]], 0.5 * (x[1:] + x[:-1]), [x[-1]]])
     cuts = [0, *(np.flatnonzero(np.diff(flags)) + 1), len(flags)]
     for first, last in zip(cuts, cuts[1:]):
-        ax.axvspan(edges[first], edges[last], facecolor=shades.light(look[int(flags[first])][1], 0.22),
+        ax.axvspan(edges[first], edges[last], facecolor=shades.light(look[int(flags[first])][1], BEHIND),
                    linewidth=0, zorder=0)
 
 
@@ -100,7 +102,7 @@ def _lines(ax, data, x, order, names):
                     label=shades.short_label(data, name))
         else:
             for i, axis in enumerate(data["axis"].attrs.get("names", "axis 1; axis 2; axis 3").split("; ")):
-                ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-",
+                ax.plot(x[order], values[:, i], color=style.AXES[i], linestyle="--" if n else "-",
                         label=f"{name}, {axis}")
     if names:
         of = data[names[0]].attrs.get("units", "1")
@@ -221,17 +223,17 @@ def _map(ax, data, full, kind, moving, limits) -> Any:
     options: dict[str, Any] = {"shading": "nearest", "rasterized": True}
     if kind in shades.FLAGS:
         look = shades.looks(full, kind)
-        options |= {"cmap": ListedColormap([shades.light(colour) for _, colour in look.values()]),
+        options |= {"cmap": ListedColormap([colour for _, colour in look.values()]),
                     "vmin": -0.5, "vmax": len(look) - 0.5}
         values = np.searchsorted(list(look), values)
     elif kind in COUNTS:
         levels = np.arange(limits[0], limits[1] + 2) - 0.5
-        colours = ListedColormap([shades.light(colour, 0.6)
-                                  for colour in (style.GREY, *style.BRANCHES)][:max(2, len(levels) - 1)])
+        count = max(2, len(levels) - 1)
+        colours = ListedColormap([shades.light(style.BLACK, 0.1 + 0.6 * n / count) for n in range(count)])
         options |= {"cmap": colours,
                     "norm": BoundaryNorm(levels if len(levels) > 2 else [*levels, levels[-1] + 1], colours.N)}
     else:
-        options |= {"cmap": "cividis", "vmin": limits[0], "vmax": limits[1]}
+        options |= {"cmap": shades.scale(), "vmin": limits[0], "vmax": limits[1]}
         values = np.where(np.isfinite(values), values, np.nan)
     ax.grid(False)
     return ax.pcolormesh(x, y, values.T, **options)
@@ -356,7 +358,7 @@ def _histograms(data, kind, size, plt):
             of = finite & (np.asarray(data["fate"]) == fate) if "fate" in data else finite
             if of.any():
                 printed = f"{text}: {of.sum():,}" if "fate" in data else None
-                ax.hist(values[of], edges, facecolor=shades.light(colour), edgecolor=colour, linewidth=0.6,
+                ax.hist(values[of], edges, facecolor=colour, edgecolor=style.GREY, linewidth=0.6,
                         label=printed)
             if "fate" not in data:
                 break

@@ -19,7 +19,7 @@ DIGITS = 10  # of a value
 HEADS = {"minimum": "least energy", "saddle": "saddles", "maximum": "most energy",
          "inflection": "inflections"}
 LOOKS = {"minimum": style.MEANING["stable"], "saddle": style.MEANING["unstable"],
-         "maximum": style.MEANING["crossing"], "inflection": style.MEANING["undecided"]}
+         "maximum": style.MEANING["unstable"] | {"linestyle": "-."}, "inflection": style.MEANING["undecided"]}
 
 
 def text(result: RotationDiagram) -> str:

@@ -126,11 +126,12 @@ def _of_the_case(case: Case, records: np.ndarray) -> list[Caveat]:
 
 # --- How fates and axes of a sweep look: colours by meaning, labels with units, straight or logarithmic
 # scales
-# fate -> (its name in a legend, its colour)
-FATES = {fate: (outcome.legend, style.OUTCOME[outcome.word]) for fate, outcome in OUTCOMES.items()} | {
-    NO_CASE: ("no case", style.GREY)}
+# fate -> (its name in a legend, the colour of its areas)
+FATES = {fate: (outcome.legend, style.FILL[outcome.word]) for fate, outcome in OUTCOMES.items()} | {
+    NO_CASE: ("no case", style.FILL["no case"])}
 FLAGS = ("fate", "level", "reason", "chaos")  # columns of words
 LIGHT = 0.45  # of a colour that fills an area
+LETTERED = 0.05  # of a map: half the side of the least square that has room for a letter
 
 
 def light(colour: str, fraction: float = LIGHT) -> tuple[float, float, float]:
@@ -139,9 +140,52 @@ def light(colour: str, fraction: float = LIGHT) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def spinning(axis: int) -> tuple[float, float, float]:
-    """The colour of an area of spin-up: a hue for each axis, the lighter one against it."""
-    return light(style.SPIN[abs(axis)], 0.4 if axis < 0 else 0.9)
+def scale() -> Any:
+    """The colours of numbers on a map, from the least to the greatest: a hue that no outcome has."""
+    from matplotlib.colors import LinearSegmentedColormap
+    return LinearSegmentedColormap.from_list("numbers", style.SCALE)
+
+
+def spinning(axis: int) -> str:
+    """The colour of an area of spin-up, the lighter one against its axis; `hatched` says which axis."""
+    return style.AGAINST if axis < 0 else style.FILL["spin-up"]
+
+
+def look_of(axis: int) -> dict[str, Any]:
+    """A legend's patch for an area of spin-up: its colour, and the hatch of its axis."""
+    return {"facecolor": spinning(axis), "edgecolor": style.BLACK, "hatch": style.HATCH[abs(axis)],
+            "linewidth": 0.5}
+
+
+def hatched(ax: Axes, x: np.ndarray, y: np.ndarray, labels: np.ndarray,
+            rows: Mapping[int, tuple[str, str]]) -> None:
+    """Hatch the areas of a map, and write the name of each into the middle of its largest piece. labels:
+    (m, n) of the points at y (m,) and x (n,); rows: a label -> (its hatch, its name; each may be empty)."""
+    from matplotlib.patheffects import withStroke
+    for label, (hatch, name) in rows.items():
+        here = labels == label
+        if not here.any():
+            continue
+        if hatch:
+            ax.contourf(x, y, here.astype(float), levels=[0.5, 1.5], colors="none", hatches=[hatch])
+        row, column, depth = _deepest(here)
+        if name and depth > LETTERED * min(here.shape):
+            ax.text(x[column], y[row], name, ha="center", va="center", fontsize=10 * style.share(), zorder=3,
+                    fontweight="bold", path_effects=[withStroke(linewidth=3.5, foreground="white")])
+
+
+def _deepest(here: np.ndarray) -> tuple[int, int, int]:
+    """Row and column of the middle of the largest square of true points, and half its side."""
+    sides = np.pad(here.astype(int), ((1, 0), (1, 0)))
+    for row in range(1, sides.shape[0]):
+        above = sides[row - 1]
+        line, left = sides[row], 0
+        for column in np.flatnonzero(line).tolist():
+            left = line[column - 1]
+            line[column] = 1 + min(left, above[column], above[column - 1])
+    row, column = np.unravel_index(int(sides.argmax()), sides.shape)
+    half = int(sides[row, column]) // 2
+    return int(row) - 1 - half, int(column) - 1 - half, half
 
 
 def label(data: Any, name: str) -> str:
@@ -221,20 +265,19 @@ def own_values(spans: Sequence[Span], data: Mapping[str, dict[str, Any]]) -> lis
 
 
 def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:
-    """value -> (its word, its colour) of a column of flags: fates have colours of their own, others those of
-    a series, as they occur."""
+    """value -> (its word, the colour of its areas) of a column of flags: fates have colours of their own,
+    others those of a list, as they occur."""
     if kind == "fate":
         return {int(value): FATES[value] for value in sorted(FATES)}
     text = str(data[kind].attrs["flag_meanings"]).split()
     present = np.unique(np.asarray(data[kind])).tolist()
-    colours = [*style.SERIES, *style.BRANCHES]
     return {value: (text[value].replace("_", " ") if value >= 0 else "not known",
-                    style.GREY if value < 0 else colours[n % len(colours)])
+                    style.FILL["undecided"] if value < 0 else style.LISTED[n % len(style.LISTED)])
             for n, value in enumerate(present)}
 
 
 def flag_legend(data: Any, kind: str) -> dict[str, dict[str, Any]]:
     """Words -> look of every flag of a column that occurs."""
     values = np.asarray(data[kind])
-    return {text: {"facecolor": light(colour), "edgecolor": colour}
+    return {text: {"facecolor": colour, "edgecolor": style.GREY}
             for value, (text, colour) in looks(data, kind).items() if (values == value).any()}

@@ -12,15 +12,19 @@ from ...errors import InputError, told
 from ...maps.basins import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ...packages import demand
 from .. import style
+from ..axes import axes_of
 from ..maps.basins import basin_name, cells_of
-from ..maps.shades import drawn, light, mark_own, own_value, said, spinning
+from ..maps.shades import drawn, hatched, look_of, mark_own, own_value, said, spinning
 from . import canvas
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-AREAS = {BOUNDED: light(style.OUTCOME["bounded"]), UNDECIDED: light(style.OUTCOME["undecided"]),
-         NO_AXIS: spinning(0)} | {axis: spinning(axis) for axis in (1, 2, 3, -1, -2, -3)}
+AREAS = {BOUNDED: style.FILL["bounded"], UNDECIDED: style.FILL["undecided"],
+         NO_AXIS: spinning(0)}
+SPUN = (1, 2, 3, -1, -2, -3)  # labels: the axis with its sense
+AREAS |= {axis: spinning(axis) for axis in SPUN}
+FINE = 150  # points across the map of hatches, or up to twice as many
 
 
 def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | None = None,
@@ -76,10 +80,27 @@ def _areas(ax: Axes, result: Basins) -> list[tuple[str, dict[str, Any]]]:
     ax.add_collection(PolyCollection(list(np.moveaxis(corners, 2, 0)), facecolors=shown, edgecolors="none",
                                      antialiaseds=False, rasterized=True))
     ax.set(xlim=(corners[:, 0].min(), corners[:, 0].max()), ylim=(corners[:, 1].min(), corners[:, 1].max()))
-    rows = [(basin_name(result, label), {"facecolor": AREAS[label], "edgecolor": style.GREY})
-            for label in result.shares]
+    _hatches(ax, result, cells)
+    rows = [(basin_name(result, label), look_of(label if label in SPUN else 0) if label in (*SPUN, NO_AXIS)
+             else {"facecolor": AREAS[label], "edgecolor": style.GREY}) for label in result.shares]
     return (rows + ([("finest cells on the boundary", {"facecolor": "black", "edgecolor": "black"})] if black
                     else []))
+
+
+def _hatches(ax: Axes, result: Basins, cells: np.ndarray) -> None:
+    """The hatch and the letter of the axis about which each basin of spin-up turns."""
+    across, up = (np.array(axis.values) for axis in result.plan.axes)
+    step = max(1, max(len(across), len(up)) // FINE)
+    labels = np.full((len(up), len(across)), UNDECIDED)
+    for first, second, width, label in zip(*(cells[name].tolist()
+                                             for name in ("first", "second", "width", "label"))):
+        labels[second:second + width + 1, first:first + width + 1] = label
+    axes = axes_of(result.plan.case)
+    letters = {label: axes.signed(abs(label), label).partition(" ")[0].replace("-", "\u2212")
+               for label in SPUN}
+    hatched(ax, across[::step], up[::step], labels[::step, ::step],
+            {label: (style.HATCH[abs(label)], letters[label]) for label in SPUN}
+            | {NO_AXIS: (style.HATCH[0], "")})
 
 
 def _line(ax: Axes, result: Basins) -> list[tuple[str, dict[str, Any]]]:

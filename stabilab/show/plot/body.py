@@ -80,7 +80,7 @@ def _start(ax: Any, item: Subject) -> list[tuple[str, dict[str, Any]]]:
     if item.state is None or not any(item.state):
         return []
     unit, per = measures(item).rate
-    look = _arrow(ax, (0, 0, 0), _along(item.state, 0.85), r"$\omega$", style.ORANGE, 1.8)
+    look = _arrow(ax, (0, 0, 0), _along(item.state, 0.85), r"$\omega$", style.VIOLET, 1.8)
     return [(f"rates at the start ω = {_vector(per * np.array(item.state))} {unit}", look)]
 
 
@@ -94,7 +94,7 @@ def _craft(ax: Any, case: Any, sides: np.ndarray) -> list[tuple[str, dict[str, A
     for wheel, arm in zip(case.thrusters, arms):
         index = per_metre * arm
         index *= min(1.0, FARTHEST / max(float(np.linalg.norm(index)), 1e-12))
-        colour = style.PURPLE if wheel.stuck else style.GREY
+        colour = style.BLACK if wheel.stuck else style.GREY
         ax.plot(*np.array([np.zeros(3), index]).T, color=style.GREY, linewidth=0.8, linestyle=":", zorder=5)
         ax.plot(*index[:, None], marker="o", color=colour, markersize=6, zorder=9)
         look = _arrow(ax, index, 0.3 * principal(wheel.direction), "", colour, 2.0)
@@ -103,14 +103,14 @@ def _craft(ax: Any, case: Any, sides: np.ndarray) -> list[tuple[str, dict[str, A
         rows.append((f"force of {wheel.name} on the body, {float(wheel.force):.4g} N{stuck}", look))
     for wheel in case.wheels if len(case.wheels) > 1 else ():
         turning = np.sign(float(wheel.momentum) or 1.0) * principal(wheel.axis)
-        look = _arrow(ax, (0, 0, 0), 0.4 * turning, wheel.name, style.SKY, 1.6)
+        look = _arrow(ax, (0, 0, 0), 0.4 * turning, wheel.name, style.GREY, 1.6)
         rows.append((f"momentum of {wheel.name}, {float(wheel.momentum):.4g} N m s", look))
     if case.frame is not None and not case.frame.as_given:
         for letter, axis in zip("xyz", turn.T):
-            ax.plot(*np.array([-0.72 * axis, 0.72 * axis]).T, color=style.BROWN, linewidth=1.0,
+            ax.plot(*np.array([-0.72 * axis, 0.72 * axis]).T, color=style.GREY, linewidth=1.0,
                     linestyle="--", zorder=4)
-            ax.text(*(0.78 * axis), letter, color=style.BROWN, **LETTERS)
-        rows.append(("axes of the file", {"color": style.BROWN, "linewidth": 1.0, "linestyle": "--"}))
+            ax.text(*(0.78 * axis), letter, color=style.GREY, **LETTERS)
+        rows.append(("axes of the file", {"color": style.GREY, "linewidth": 1.0, "linestyle": "--"}))
     return rows
 
 
@@ -171,7 +171,7 @@ def _ring(ax: Axes3D, axis: np.ndarray, radius: float):
     across = np.linalg.svd(axis[None])[2][1:]
     turn = np.linspace(0, 2 * np.pi, 91)
     ring = radius * (np.outer(np.cos(turn), across[0]) + np.outer(np.sin(turn), across[1]))
-    ax.plot(*ring.T, color=style.BLUE, linewidth=3.0, zorder=7)
+    ax.plot(*ring.T, color=style.GREY, linewidth=3.0, zorder=7)
 
 
 def _vector_of(attribute: str, length: float, label: str, colour: str, text: str, width: float = 2.4,
@@ -196,10 +196,10 @@ def _charge(ax, item, effect, sides):
     location = np.array([0.0, 0.0, effect.arm / longest])
     field = (item.blocks.get("gamma", (0, 0, 1)) if effect.follows_attitude
              else (0.0, np.sin(effect.angle), np.cos(effect.angle)))
-    ax.plot(*location[:, None], marker="o", color=style.ORANGE, markersize=11, linestyle="none", zorder=9)
-    ax.text(*location, "charge e  ", color=style.ORANGE, ha="right", va="bottom", **LETTERS)
+    ax.plot(*location[:, None], marker="o", color=style.BLACK, markersize=11, linestyle="none", zorder=9)
+    ax.text(*location, "charge e  ", color=style.BLACK, ha="right", va="bottom", **LETTERS)
     for shift, label in ((-0.85, ""), (0.75, "field H")):
-        look = _arrow(ax, (0.0, shift, -0.3), _along(field, 0.75), label, style.PURPLE, 1.6)
+        look = _arrow(ax, (0.0, shift, -0.3), _along(field, 0.75), label, style.GREY, 1.6)
     angle = "of the attitude" if effect.follows_attitude else f"= {effect.angle:g} rad"
     return (f"charge e = {effect.charge:g} C on axis 3 at l = {effect.arm:g} m, field H = "
             f"{effect.field_strength:g} T, σ {angle}", look)
@@ -209,9 +209,9 @@ def _ball(ax, sides, word):
     """A ball within the box, with a word at it; its look in the legend."""
     turn, up = np.meshgrid(np.linspace(0, 2 * np.pi, 41), np.linspace(0, np.pi, 21))
     ball = 0.3 * sides.min() * np.array([np.sin(up) * np.cos(turn), np.sin(up) * np.sin(turn), np.cos(up)])
-    ax.plot_surface(*ball, color=style.SKY, alpha=0.45, linewidth=0, shade=False, zorder=3)
-    ax.text(0.0, 0.3 * sides.min(), 0.0, f" {word}", color=style.BLUE, ha="left", va="bottom", **LETTERS)
-    return {"color": style.SKY, "marker": "o", "markersize": 10, "linestyle": "none", "alpha": 0.6}
+    ax.plot_surface(*ball, color=style.GREY, alpha=0.45, linewidth=0, shade=False, zorder=3)
+    ax.text(0.0, 0.3 * sides.min(), 0.0, f" {word}", color=style.GREY, ha="left", va="bottom", **LETTERS)
+    return {"color": style.GREY, "marker": "o", "markersize": 10, "linestyle": "none", "alpha": 0.6}
 
 
 def _liquid(ax, item, effect, sides):
@@ -225,14 +225,14 @@ def _damper(ax, item, effect, sides):
 
 
 def _damper_wheel(ax, item, effect, sides):
-    look = _arrow(ax, (0, 0, 0), _along(effect.axis, 0.6), "damper wheel", style.BLUE, 1.6)
+    look = _arrow(ax, (0, 0, 0), _along(effect.axis, 0.6), "damper wheel", style.GREY, 1.6)
     return (f"damper: wheel of {effect.inertia:g} kg m² on a bearing of {effect.coefficient:g} N m s, about "
             f"{_vector(effect.axis)}", look)
 
 
 def _damper_mass(ax, item, effect, sides):
     place = _along(effect.place, 0.45) if np.any(effect.place) else np.zeros(3)
-    look = _arrow(ax, place, _along(effect.line, 0.35), "damper mass", style.BLUE, 1.6)
+    look = _arrow(ax, place, _along(effect.line, 0.35), "damper mass", style.GREY, 1.6)
     return (f"damper: mass of {effect.mass:g} kg at {_vector(effect.place)} m on a line along "
             f"{_vector(effect.line)}, spring {effect.stiffness:g} N/m, dashpot {effect.coefficient:g} kg/s",
             look)
@@ -259,7 +259,7 @@ def _eddy(ax, item, effect, sides):
     """Lines of the field, half of each on either side of the plane of axes 2 and 3."""
     field, look = _along(_down(item), 0.75), {}
     for shift, label in ((-0.75, ""), (0.75, "field B")):
-        look = _arrow(ax, (0.0, shift, -0.3) - field / 2, field, label, style.PURPLE, 1.6)
+        look = _arrow(ax, (0.0, shift, -0.3) - field / 2, field, label, style.GREY, 1.6)
     return (f"eddy currents in a field of {effect.field_strength:g} T, k = {effect.coefficient:g} N m s/T²",
             look)
 
@@ -274,31 +274,31 @@ def _weight(ax, item, effect, sides):
     ax.plot([0], [0], [0], zorder=9, marker="s", color=style.BLACK, markersize=8, linestyle="none")
     ax.text(0.0, 0.0, 0.0, "  fixed point O", color=style.BLACK, ha="left", va="bottom", **LETTERS)
     ax.plot(*np.array([np.zeros(3), centre]).T, color=style.BLACK, linewidth=1.0, linestyle=":", zorder=8)
-    ax.plot(*centre[:, None], zorder=9, marker="o", color=style.VERMILION, markersize=7, linestyle="none")
-    look = _arrow(ax, centre, 0.5 * _down(item), "weight Mg", style.VERMILION, side="left")
+    ax.plot(*centre[:, None], zorder=9, marker="o", color=style.BLACK, markersize=7, linestyle="none")
+    look = _arrow(ax, centre, 0.5 * _down(item), "weight Mg", style.BLACK, side="left")
     return (f"weight Mg = {effect.weight:g} N at the centre of mass {_vector(effect.centre_of_mass)} m", look)
 
 
 def _attraction(ax, item, effect, sides):
     """The attracting centre, far along gamma."""
     location = 1.15 * _down(item)
-    ax.plot(*np.array([np.zeros(3), location]).T, color=style.GREEN, linewidth=1.2, linestyle="--", zorder=5)
-    ax.plot(*location[:, None], marker="*", color=style.GREEN, markersize=15, linestyle="none", zorder=9)
-    ax.text(*location + [0.0, 0.0, -0.07], "attracting centre", color=style.GREEN, ha="center", va="top",
+    ax.plot(*np.array([np.zeros(3), location]).T, color=style.BLACK, linewidth=1.2, linestyle="--", zorder=5)
+    ax.plot(*location[:, None], marker="*", color=style.BLACK, markersize=15, linestyle="none", zorder=9)
+    ax.text(*location + [0.0, 0.0, -0.07], "attracting centre", color=style.BLACK, ha="center", va="top",
             **LETTERS)
     away = "" if effect.distance is None else f", R = {effect.distance:g} m away"
     return (f"attracting centre{away}: N = {effect.strength:.3g} 1/s²",
-            {"color": style.GREEN, "marker": "*", "markersize": 10, "linestyle": "--", "linewidth": 1.2})
+            {"color": style.BLACK, "marker": "*", "markersize": 10, "linestyle": "--", "linewidth": 1.2})
 
 
 BOX = "box with the body's principal moments"
 PARTS: dict[str, tuple[str, Callable]] = {  # effect -> its words in the caption, and what draws it
     "gyrostat": ("the momentum of its wheel", _vector_of(
-        "moment", 0.55, r"momentum $\lambda$", style.BLUE, "momentum of the wheel λ = {} kg m²/s", 3.2, 0.2)),
+        "moment", 0.55, r"momentum $\lambda$", style.GREY, "momentum of the wheel λ = {} kg m²/s", 3.2, 0.2)),
     "constant_torque": ("the constant torque", _vector_of(
-        "vector", 0.85, "torque M", style.VERMILION, "constant torque M = {} N m")),
+        "vector", 0.85, "torque M", style.BLACK, "constant torque M = {} N m")),
     "body_force": ("the constant force", _vector_of(
-        "vector", 1.0, "force f", style.GREEN, "constant force f = {} N")),
+        "vector", 1.0, "force f", style.BLACK, "constant force f = {} N")),
     "charge": ("the charge and the field", _charge), "liquid_cavity": ("the cavity of liquid", _liquid),
     "resistance": ("the resistance", _resistance),
     "gravity": ("fixed point, centre of mass and weight", _weight),
@@ -307,4 +307,4 @@ PARTS: dict[str, tuple[str, Callable]] = {  # effect -> its words in the caption
     "damper_mass": ("the mass of the damper", _damper_mass),
     "rate_damper": ("the linear damper", _rate_damper), "eddy_currents": ("the magnetic field", _eddy),
     "wheel_motor": ("the motor of the wheel", _vector_of(
-        "motor", 0.8, "motor u", style.SKY, "torque of the motor on its wheel u = {} N m", 2.4, 0.27))}
+        "motor", 0.8, "motor u", style.GREY, "torque of the motor on its wheel u = {} N m", 2.4, 0.27))}

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 MANY, FEW = (90, 600), (40, 90)
 FLAT = 1e-9  # of the picture: equilibria nearer than this to a plane across an axis are drawn in it
 BEYOND = 2.4  # times the farthest fold, or the nearest point of a curve without one: how far a curve is shown
-FOLD: dict[str, Any] = {"marker": "D", "color": style.GREEN, "markersize": 6, "linestyle": "none"}
+FOLD: dict[str, Any] = style.MARKER["degenerate"]
 
 
 def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
@@ -35,7 +35,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     """Draw all equilibria of a scene, and return the axes.
 
     Stable ones are full lines and dots, unstable ones dashed lines and circles, undecided ones dotted lines
-    and diamonds; green diamonds mark where a curve changes its stability. Where all lie in a plane across an
+    and diamonds; open diamonds mark where a curve changes its stability. Where all lie in a plane across an
     axis (a torque on an axis) that plane is drawn, else the space of rates; axes that are given decide it
     themselves. A state, given or of the case, is marked. Of scenes with a direction of space (top) the rates
     of the permanent rotations are drawn. Raises InputError where there is none.

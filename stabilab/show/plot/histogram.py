@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 DRAWS, SEED = 500, 1
-BAR: dict[str, Any] = {"color": style.BLUE, "alpha": 0.55}
+BAR: dict[str, Any] = {"color": style.VIOLET, "alpha": 0.55}
 MEDIAN: dict[str, Any] = {"color": style.BLACK, "linewidth": 1.4}
 ENDS: dict[str, Any] = {"color": style.BLACK, "linewidth": 1.0, "linestyle": "--"}
 BOUNDS: dict[str, Any] = {"facecolor": style.GREY, "alpha": 0.3, "linewidth": 0}

@@ -40,8 +40,7 @@ if TYPE_CHECKING:
     from ...case.read import Case
 
 # --- The rates of a motion over time: components and size, with limits, extremes and period marked
-COMPONENTS = ({"color": style.BLUE, "linewidth": 1.3}, {"color": style.ORANGE, "linewidth": 1.3},
-              {"color": style.GREEN, "linewidth": 1.3})
+COMPONENTS = tuple({"color": colour, "linewidth": 1.3} for colour in style.AXES)
 SIZE_LOOK = {"color": style.BLACK, "linewidth": 2.2}
 EXTREME = {"linestyle": (0, (1, 2)), "linewidth": 1.1}
 LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
@@ -342,10 +341,10 @@ BAND = {"facecolor": style.VERMILION, "alpha": 0.22, "linewidth": 0}
 SURE = {"facecolor": style.BLUE, "alpha": 0.18, "linewidth": 0}
 NOW = {"color": style.BLACK, "linestyle": "--", "linewidth": 1.2}
 STATED = {"color": style.GREY, "linestyle": "-.", "linewidth": 1.2}
-KEEPS = {"facecolor": style.GREEN, "alpha": 0.25, "linewidth": 0}
+KEEPS = {"facecolor": style.BLUE, "alpha": 0.25, "linewidth": 0}
 NEVER = {"marker": "^", "linestyle": "none", "markersize": 5}
 WHEELS = [{"color": colour, "linewidth": 1.8, "linestyle": dashes} for colour, dashes in (
-    (style.BLUE, "-"), (style.PURPLE, "--"), (style.SKY, ":"), (style.BROWN, "-."))]
+    (style.BLACK, "-"), (style.SAGE, "--"), (style.WINE, ":"), (style.GREY, "-."))]
 
 
 def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
@@ -414,7 +413,7 @@ def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = Non
     """Draw by how much later the limit is reached with another momentum of a wheel, and return the axes.
 
     A line for each wheel of the case, the others left as they are, by runs; a triangle where a run does not
-    reach the limit within PATIENCE times the time of now. Green: momenta that keep the motion bounded.
+    reach the limit within PATIENCE times the time of now. Blue: momenta that keep the motion bounded.
     Raises InputError where the case has no wheel, or its motion does not reach a limit.
     """
     item = subject(case)

@@ -170,8 +170,9 @@ def ways(plane: PhasePlane, W: np.ndarray) -> tuple[float, ...]:
 
 # --- The Poincaré section of a motion: where it passes a plane of the space of rates, again and again
 DOT = {"marker": ".", "linestyle": "none", "markersize": 5}
-THIS, OTHER = DOT | {"color": style.ORANGE, "markersize": 7}, DOT | {"color": style.PURPLE}
-STAYS, LEAVES = DOT | {"color": style.SKY}, DOT | {"color": style.VERMILION, "marker": "x", "markersize": 3.5}
+THIS, OTHER = DOT | {"color": style.VIOLET, "markersize": 7}, DOT | {"color": style.SAGE}
+STAYS = DOT | {"color": style.BLUE}
+LEAVES = DOT | {"color": style.VERMILION, "marker": "x", "markersize": 3.5}
 MIDDLE = style.MARKER["centre"]
 PASSAGES, MOST = 300, 20_000
 FAN, USUAL = 500, 6  # neighbours: at most, and where no number is asked for
@@ -396,9 +397,9 @@ def _barrier(plane: PhasePlane, margin: float | None, up: float, span: tuple[flo
 def _margin(ax: Axes, margin: float, location: float, energy: float, unit: str) -> None:
     """An arrow from the energy to the barrier."""
     ax.annotate("", (location, energy + margin), (location, energy),
-                arrowprops={"arrowstyle": "<->", "color": style.VERMILION, "linewidth": 1.4})
+                arrowprops={"arrowstyle": "<->", "color": style.BLACK, "linewidth": 1.4})
     size = number(abs(margin), SHORT) + unit
     ax.annotate(f"margin in energy {size}" if margin > 0 else f"{size} above the barrier",
                 (location, energy + margin / 2), (6, 0), textcoords="offset points", va="center",
-                color=style.VERMILION,
+                color=style.BLACK,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.8})

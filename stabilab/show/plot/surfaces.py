@@ -177,7 +177,8 @@ MANY_TURNS = 60  # of a component: a line of more is drawn finer
 # of a rotation -> (words, its look as a point, as a circle)
 NATURES: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     MINIMUM: ("least energy: attracts", style.MARKER["centre"], style.MEANING["stable"]),
-    MAXIMUM: ("most energy: unstable with losses", style.MARKER["turning"], style.MEANING["unstable"]),
+    MAXIMUM: ("most energy: unstable with losses", style.MARKER["turning"] | {"color": style.VERMILION},
+              style.MEANING["unstable"]),
     SADDLE: ("saddle", style.MARKER["saddle"], style.MEANING["unstable"]),
     INFLECTION: ("inflection", style.MARKER["degenerate"], style.MEANING["unstable"])}
 

@@ -60,8 +60,8 @@ class Turn:
         """(letter, colour, (n, 3) in space) of momentum, torque and wheels, the longest as long as is drawn.
         """
         result = (("H", style.BLACK, OUT, self.momentum),
-                 ("M", style.PURPLE, OUT, self.rotations @ self.torque),
-                 ("λ", style.SKY, WHEEL, self.rotations @ self.wheel))
+                 ("M", style.GREY, OUT, self.rotations @ self.torque),
+                 ("λ", style.GREY, WHEEL, self.rotations @ self.wheel))
         largest = [np.abs(rows).max() or 1.0 for *_, rows in result]  # of tiny ones the squares vanish
         return [(letter, colour, long * (rows / upper) / np.linalg.norm(rows / upper, axis=1).max())
                 for (letter, colour, long, rows), upper in zip(result, largest) if rows.any()]
@@ -169,7 +169,7 @@ ENDINGS = (".html", ".gif", ".mp4")
 SIZE = (5.2, 5.2)
 PER_SECOND, PICTURES = 20, 100  # of a film
 DPI = 80
-COLOURS = (style.VERMILION, style.GREEN, style.BLUE)  # faces across axes 1, 2, 3, and these axes
+COLOURS = style.AXES  # faces across axes 1, 2, 3, and these axes
 HALF_PICTURE = 1.75  # half the picture, in half edges
 OUT, WHEEL = 1.5, 1.25  # lengths of the body's axes, momentum and torque; of the wheels' momentum
 # of the eye, in half edges: ten units of Matplotlib, in which the box of the axes is zoom * 25/18 wide

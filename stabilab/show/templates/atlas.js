@@ -72,8 +72,12 @@ function atlasView(canvas, data, say) {
   }
   function draw() {
     const rows = cells(), image = pen.createImageData(width(), height()), of = data.wheels[state.wheel].columns[state.kind], table = data.kinds[state.kind].colours;
+    const hatches = data.kinds[state.kind].hatches || [], wide = width(), k = Math.round(large()), far = 9 * k;
+    const inked = {"/": (x, y) => (x + y) % far < k, "\\": (x, y) => (x - y % far + far) % far < k, "|": x => x % far < k,  // the axis of a spin-up
+      ".": (x, y) => x % far < 2 * k && y % far < 2 * k, "o": (x, y) => x % far < 3 * k && y % far < 3 * k, "O": (x, y) => x % far < 5 * k && y % far < 5 * k};
     for (let n = 0; n < rows.length; n++) if (rows[n] >= 0) {
-      const [r, g, b] = table[of[rows[n]]];
+      const kind = of[rows[n]], ink = inked[hatches[kind]], dark = ink && ink(n % wide, Math.floor(n / wide)) ? 0.4 : 1;
+      const [r, g, b] = table[kind].map(v => dark * v);
       image.data.set([r, g, b, 255], 4 * n);
     }
     pen.putImageData(image, 0, 0);
@@ -105,7 +109,7 @@ function atlasView(canvas, data, say) {
     for (const one of named()) {
       const at = pixelOf(one.direction);
       if (!at) continue;
-      pen.beginPath(); pen.arc(...at, k * (one.axis ? 4.5 : 6.5), 0, 7); pen.fillStyle = one.axis ? "#fff" : "{{ style.YELLOW }}"; pen.fill();
+      pen.beginPath(); pen.arc(...at, k * (one.axis ? 4.5 : 6.5), 0, 7); pen.fillStyle = one.axis ? "#fff" : "#000"; pen.fill();
       pen.strokeStyle = "#000"; pen.lineWidth = 1.3 * k; pen.stroke();
       const right = at[0] < 0.86 * width(), wide = pen.measureText(one.name).width;
       const boxes = [[right, -6 * k], [right, 18 * k], [!right, -6 * k], [!right, 18 * k]].map(([side, down]) => {

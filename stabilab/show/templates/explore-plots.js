@@ -1,5 +1,5 @@
 // Flat pictures: axes with units, level curves of a potential, curves over time.
-const INK = {motion: "{{ style.ORANGE }}", separatrix: "{{ style.BLACK }}", level: "#B5B5B5", stable: "{{ style.BLUE }}", unstable: "{{ style.VERMILION }}", size: "{{ style.BLACK }}", limit: "{{ style.VERMILION }}", components: ["{{ style.BLUE }}", "{{ style.ORANGE }}", "{{ style.GREEN }}"]};
+const INK = {motion: "{{ style.VIOLET }}", separatrix: "{{ style.BLACK }}", level: "#B5B5B5", stable: "{{ style.BLUE }}", unstable: "{{ style.VERMILION }}", size: "{{ style.BLACK }}", limit: "{{ style.VERMILION }}", components: {{ style.AXES|list|tojson }}};
 
 function rounded(value) { return (Math.abs(value) < 1e5 ? String(+value.toPrecision(6) || 0) : value.toExponential().replace("e+", "e")).replace("-", "\u2212"); }
 

@@ -19,6 +19,7 @@ function slider(title, control) {
   const label = element("label", {htmlFor: name}), row = element("div", {className: "control own"}, label, range, field, element("span", {className: "unit", textContent: control.unit}));
   const called = name => { const words = name.replace(/^the | axis$/g, ""); label.textContent = words; range.setAttribute("aria-label", `${title}: ${words}${unit}`); field.setAttribute("aria-label", `${title}: ${words}${unit}, as a number`); };
   called(control.words || setup.axes[control.axis - 1]);
+  if (control.axis) range.style.accentColor = INK.components[control.axis - 1];
   const step = 10 ** Math.floor(Math.log10((control.high - control.low) / 500));
   range.oninput = () => { linked = ""; touched[name] = String(+(Math.round(Number(range.value) / step) * step).toPrecision(9)); put(name, touched[name]); move(); };
   field.oninput = () => { if (field.value === "" || !Number.isFinite(Number(field.value))) return; linked = ""; touched[name] = field.value; put(name, field.value); move(); };
@@ -161,7 +162,7 @@ function show(answer) {
   else if (body) fill("body-words", answer.moving ? "Keep still, and the body turns." : "The body turns where NumPy is there.", words => [words]);
   drawFlat();
   const saddle = answer.plane && answer.plane.rests.some(one => one.saddle), centre = answer.plane && answer.plane.rests.some(one => !one.saddle);
-  fill("plane-words", answer.plane ? `Orange: this motion;${saddle ? " black: separatrix;" : ""} grey: other energies${centre ? "; filled: centre" : ""}${saddle ? "; open: saddle" : ""}. Click to start a motion there.`
+  fill("plane-words", answer.plane ? `Violet: this motion;${saddle ? " black: separatrix;" : ""} grey: other energies${centre ? "; filled: centre" : ""}${saddle ? "; open: saddle" : ""}. Click to start a motion there.`
     : "This scene does not reduce to one degree of freedom, so it has no phase plane.", words => [signed(words)]);
   const limited = answer.time.limits.length ? "Dashed: limit" + (answer.time.reached === null ? "." : answer.time.reached.length > 1 ? ", reached between the upright lines." : ", reached at the upright line.") : "";
   const told = [limited, answer.time.extremes ? "Dotted: least and greatest for ever." : "", periods(answer.time).length ? "Grey: whole periods." : ""].join(" ").trim();

@@ -213,15 +213,15 @@ def methods(result, question) -> list[str]:
 
 # --- Models beside the exact motion
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2},
-         "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
-         "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},
-         "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":"},
-         "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-."},
-         "averaged2": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
-         "lindstedt": {"color": style.SKY, "linewidth": 1.2, "linestyle": (0, (5, 2))}}
+         "linear": {"color": style.GREY, "linewidth": 1.4, "linestyle": "--"},
+         "corrected": {"color": style.WINE, "linewidth": 1.5, "linestyle": "-."},
+         "printed": {"color": style.SAGE, "linewidth": 1.6, "linestyle": ":"},
+         "averaged1": {"color": style.GREY, "linewidth": 1.4, "linestyle": "-."},
+         "averaged2": {"color": style.WINE, "linewidth": 1.4, "linestyle": "--"},
+         "lindstedt": {"color": style.WINE, "linewidth": 1.2, "linestyle": (0, (5, 2))}}
 # of a model that would bury the others: a ground below them
 BURIED = {"linestyle": "-", "linewidth": 0.6, "antialiased": False, "alpha": 0.35, "zorder": 1.9}
-DARK = {"printed": "#946300", "corrected": "#9C4A7B", "lindstedt": style.BLUE}  # of words, to be read
+DARK = {"printed": "#4F6B41"}  # of words, to be read
 # where a model ends before the motion does
 END = {"marker": "X", "markersize": 7, "linestyle": "none", "zorder": 5}
 FLAT = 1e-4  # of its values, a range below which an axis counts from one of them

@@ -8,6 +8,7 @@ import json
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.colors import to_rgb
 
 import stabilab
 from stabilab.errors import InputError
@@ -77,8 +78,8 @@ def test_the_picture_shows_each_basin_where_its_states_are(minor):
     middle, sides = corners.mean(axis=1), np.ptp(corners, axis=1)
     states = np.insert(middle, 1, 4.0, axis=1)
     spun = stabilab.fate(stabilab.load(MINOR).scene, states).labels == stabilab.Fate.SPIN_UP
-    wrong = (ax.collections[0].get_facecolor()[:, :3] != np.where(spun[:, None], picture.AREAS[3],
-                                                                  picture.AREAS[0])).any(axis=1)
+    wrong = (ax.collections[0].get_facecolor()[:, :3] != np.where(spun[:, None], to_rgb(picture.AREAS[3]),
+                                                                  to_rgb(picture.AREAS[0]))).any(axis=1)
     assert sides.prod(axis=1).sum() == pytest.approx(8 * 6.1)
     assert sides[wrong].prod(axis=1).sum() < minor.blur * 8 * 6.1
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("$x_1$",
