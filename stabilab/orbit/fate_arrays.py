@@ -33,12 +33,11 @@ from ..physics.own_unit import far_exponent
 from ..physics.scene import AnyScene, Scene
 from ..physics.states import equilibrium_mask
 from ..representation import Compared, Shown
-from . import margins_kernel
+from . import equilibria_kernel
 from .arc_kernel import INLINED
-from .barriers_arrays import middle_barriers
+from .equilibria_kernel import MARGIN_SHARE
 from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_at_rest
 from .landscape import ROUNDINGS, ConicLandscape, HyperbolaLandscape, Landscape, in_doubles, landscape
-from .margins_kernel import MARGIN_SHARE
 from .one_orbit import Orbit
 from .one_state import LOST, far_fate, far_rows
 from .potential import Hyperbola, derivatives_on_parabola
@@ -408,8 +407,7 @@ def _label_chunk(scene: AnyScene, land: Landscape | None, states: np.ndarray, ou
         out["reasons"][:] = Basis.TORQUE_FREE
         out["margins"][:], doubtful = free_margins(scene, states)
         return doubtful
-    location, w, size = land.start(states)
-    margins, doubtful = _margins(land, states, location, w, size)
+    margins, doubtful = _margins(land, states)
     np.multiply(margins, land.reduction.energy_unit, out=out["margins"])
     out["reasons"][:] = Basis.WALLS if land.potential.walled else Basis.TORQUE_FREE
     _mark_spins(land, out)
@@ -430,23 +428,23 @@ def _mark_spins(land: Landscape, out: Mapping[str, np.ndarray]):
         out["sense"][:] = spins * np.int8(land.sense)
 
 
-def _margins(land, states, location, w, size):
+def _margins(land: Landscape, states: np.ndarray):
     """(margins (n,) in canonical units, which of them are doubtful (n,)); on an invariant plane NaN."""
-    if not land.potential.walled:
-        return circle_margins(land, location, w, size)
-    margins, doubtful = np.full(len(w), np.inf), np.zeros(len(w), bool)
-    if land.may_have_barriers():
-        if land.nearly_parabolic:
-            margins, doubtful = middle_barriers(land.reduction, states)
-            margins *= float(land.reduction.weight) / land.reduction.energy_unit
-        else:
-            doubtful[:] = True
-        rows = np.nonzero(doubtful)[0]
-        if rows.size and land.conic is not None:
-            margins[rows], doubtful[rows] = nearest_margins(
-                land, [part[rows] for part in location], w[rows], [part[rows] for part in size])
-    if land.conic is not None:
-        on_plane = (location[0] == 0) | (location[1] == 0)
+    circles, barred = not land.potential.walled, land.may_have_barriers()
+    if barred and land.barriers_by_arcs:
+        margins, doubtful = land.barriers_by_arcs(states)
+        margins *= float(land.reduction.weight) / land.reduction.energy_unit
+        margins[doubtful], rows = 0.0, np.nonzero(doubtful)[0]
+        location = land.start(states[rows])[0]
+    else:
+        location, w, size = land.start(states)
+        if circles:
+            return circle_margins(land, location, w, size)
+        rows, margins, doubtful = np.arange(len(w)), np.full(len(w), np.inf), np.zeros(len(w), bool)
+        if barred:
+            margins, doubtful = nearest_margins(land, location, w, size)
+    if land.conic is not None and not circles:
+        on_plane = rows[(location[0] == 0) | (location[1] == 0)]
         margins[on_plane], doubtful[on_plane] = np.nan, True
     return margins, doubtful
 
@@ -463,7 +461,7 @@ def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, unit: flo
     return ~settled
 
 
-MARGINS = Kernel(margins_kernel, "margins", 3.0, INLINED)
+MARGINS = Kernel(equilibria_kernel, "margins", 3.0, INLINED)
 
 
 def at_rest(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]):
@@ -485,7 +483,7 @@ def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateR
     result = fates(scene, states)
     if land.sense or not len(states):
         return result
-    margins, doubtful = _margins(land, states, *land.start(states))
+    margins, doubtful = _margins(land, states)
     rows = np.nonzero(doubtful)[0]
     some = margins[rows]
     left = _settled(land, states[rows], some, land.reduction.energy_unit)
@@ -552,8 +550,8 @@ def nearest_margins(land: HyperbolaLandscape, index: Sequence[np.ndarray], w: np
     return margins, doubtful
 
 
-def _to_nearest(land: HyperbolaLandscape, index: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray],
-                critical: Sequence[np.ndarray]):
+def _to_nearest(land: HyperbolaLandscape, index: Sequence[np.ndarray], w: np.ndarray,
+                size: Sequence[np.ndarray], critical: Sequence[np.ndarray]):
     """(margins, which are doubtful), (n,) each, of places whose orbits have barriers, `critical` says where.
     """
     pot, energy, margins = land.potential, 0.5 * w * w, np.full(len(w), np.inf)

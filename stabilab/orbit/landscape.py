@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..numbers.double_double import TURN, Twofold
-from .barriers_arrays import NEARLY
+from .barriers_arrays import MarginsByArcs, margins_by_arcs
 from .conic import Conic, conic_of
 from .potential import potential
 from .reduction import Reduction, reduce
@@ -82,10 +82,10 @@ class Landscape:
         """Whether a motion may pass over all barriers and stay bounded."""
         return False
 
-    @property
-    def nearly_parabolic(self) -> bool:
-        """Whether orbits are parabolas, or hyperbolas that hardly differ from these near their equilibria."""
-        return 0 <= self.reduction.p * self.reduction.q < NEARLY
+    @cached_property
+    def barriers_by_arcs(self) -> MarginsByArcs | None:
+        """The margins of many states by arcs from these, where most orbits lend themselves to it."""
+        return margins_by_arcs(self.reduction)
 
     @cached_property
     def kernel_input(self):
