@@ -33,14 +33,14 @@ from ..physics.own_unit import far_exponent
 from ..physics.scene import AnyScene, Scene
 from ..physics.states import equilibrium_mask
 from ..representation import Compared, Shown
-from . import margins_kernel
+from . import equilibria_kernel
 from .arc_kernel import INLINED
+from .equilibria_kernel import MARGIN_SHARE
 from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_at_rest
-from .landscape import ROUNDINGS, ConicLandscape, Landscape, in_doubles, landscape
-from .margins_kernel import MARGIN_SHARE
+from .landscape import ROUNDINGS, ConicLandscape, HyperbolaLandscape, Landscape, in_doubles, landscape
 from .one_orbit import Orbit
 from .one_state import LOST, far_fate, far_rows
-from .potential import Hyperbola, Parabola, derivatives_on_parabola
+from .potential import Hyperbola, derivatives_on_parabola
 from .reduction import Reduction, reduce
 from .result import Fate, spins_about
 from .separatrix.distance import separatrix_distance
@@ -407,12 +407,11 @@ def _label_chunk(scene: AnyScene, land: Landscape | None, states: np.ndarray, ou
         out["reasons"][:] = Basis.TORQUE_FREE
         out["margins"][:], doubtful = free_margins(scene, states)
         return doubtful
-    location, w, size = land.start(states)
-    margins, doubtful = _margins(land, location, w, size)
+    margins, doubtful = _margins(land, states)
     np.multiply(margins, land.reduction.energy_unit, out=out["margins"])
     out["reasons"][:] = Basis.WALLS if land.potential.walled else Basis.TORQUE_FREE
     _mark_spins(land, out)
-    for index in np.nonzero(flat_mask(land, states, location))[0]:
+    for index in np.nonzero(flat_mask(land, states))[0]:
         write_row(out, index, Fate.SPIN_UP, Basis.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
         doubtful[index] = False
     return doubtful
@@ -429,13 +428,23 @@ def _mark_spins(land: Landscape, out: Mapping[str, np.ndarray]):
         out["sense"][:] = spins * np.int8(land.sense)
 
 
-def _margins(land, location, w, size):
+def _margins(land: Landscape, states: np.ndarray):
     """(margins (n,) in canonical units, which of them are doubtful (n,)); on an invariant plane NaN."""
-    if not land.potential.walled:
-        return circle_margins(land, location, w, size)
-    margins, doubtful = nearest_margins(land, location, w, size)
-    if land.conic is not None:
-        on_plane = (location[0] == 0) | (location[1] == 0)
+    circles, barred = not land.potential.walled, land.may_have_barriers()
+    if barred and land.barriers_by_arcs:
+        margins, doubtful = land.barriers_by_arcs(states)
+        margins *= float(land.reduction.weight) / land.reduction.energy_unit
+        margins[doubtful], rows = 0.0, np.nonzero(doubtful)[0]
+        location = land.start(states[rows])[0]
+    else:
+        location, w, size = land.start(states)
+        if circles:
+            return circle_margins(land, location, w, size)
+        rows, margins, doubtful = np.arange(len(w)), np.full(len(w), np.inf), np.zeros(len(w), bool)
+        if barred:
+            margins, doubtful = nearest_margins(land, location, w, size)
+    if land.conic is not None and not circles:
+        on_plane = rows[(location[0] == 0) | (location[1] == 0)]
         margins[on_plane], doubtful[on_plane] = np.nan, True
     return margins, doubtful
 
@@ -452,7 +461,7 @@ def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, unit: flo
     return ~settled
 
 
-MARGINS = Kernel(margins_kernel, "margins", 3.0, INLINED)
+MARGINS = Kernel(equilibria_kernel, "margins", 3.0, INLINED)
 
 
 def at_rest(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]):
@@ -474,7 +483,7 @@ def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateR
     result = fates(scene, states)
     if land.sense or not len(states):
         return result
-    margins, doubtful = _margins(land, *land.start(states))
+    margins, doubtful = _margins(land, states)
     rows = np.nonzero(doubtful)[0]
     some = margins[rows]
     left = _settled(land, states[rows], some, land.reduction.energy_unit)
@@ -526,12 +535,11 @@ def circle_margins(land: ConicLandscape, location: Sequence[np.ndarray], w: np.n
     return best, doubtful & (radius > 0)
 
 
-def nearest_margins(land: Landscape, index: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray]):
-    """As `circle_margins`, between walls: the margins to the barrier that is nearest in height, +inf where
+def nearest_margins(land: HyperbolaLandscape, index: Sequence[np.ndarray], w: np.ndarray,
+                    size: Sequence[np.ndarray]):
+    """As `circle_margins`, on hyperbolas: the margins to the barrier that is nearest in height, +inf where
     the orbit has none. Motions on either side of it are bounded."""
     margins = np.full(len(w), np.inf)
-    if not land.may_have_barriers():
-        return margins, np.zeros(len(w), bool)
     offsets, spots, barrier = land.critical(index, barriers_only=True)
     doubtful, barred = land.beside_fold(index) | land.beside_centre(index), np.nonzero(barrier.any(axis=1))[0]
     if barred.size:
@@ -542,8 +550,8 @@ def nearest_margins(land: Landscape, index: Sequence[np.ndarray], w: np.ndarray,
     return margins, doubtful
 
 
-def _to_nearest(land: Landscape, index: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray],
-                critical: Sequence[np.ndarray]):
+def _to_nearest(land: HyperbolaLandscape, index: Sequence[np.ndarray], w: np.ndarray,
+                size: Sequence[np.ndarray], critical: Sequence[np.ndarray]):
     """(margins, which are doubtful), (n,) each, of places whose orbits have barriers, `critical` says where.
     """
     pot, energy, margins = land.potential, 0.5 * w * w, np.full(len(w), np.inf)
@@ -565,7 +573,7 @@ def _to_nearest(land: Landscape, index: Sequence[np.ndarray], w: np.ndarray, siz
     return margins, doubtful
 
 
-def _tilted(pot: Hyperbola | Parabola, point: Sequence[np.ndarray], offset: np.ndarray, margin: np.ndarray,
+def _tilted(pot: Hyperbola, point: Sequence[np.ndarray], offset: np.ndarray, margin: np.ndarray,
             energy: np.ndarray):
     """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over
     the way to it."""
@@ -573,11 +581,15 @@ def _tilted(pot: Hyperbola | Parabola, point: Sequence[np.ndarray], offset: np.n
             * (np.abs(margin + energy) + energy))
 
 
-def flat_mask(land: Landscape, states: np.ndarray, location: Sequence[np.ndarray]):
+def flat_mask(land: Landscape, states: np.ndarray):
     """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin
     back."""
-    small = land.nearly_flat(states, location)
-    for index in np.nonzero(small)[0]:
+    small = land.nearly_flat(states)
+    rows = np.nonzero(small)[0]
+    if rows.size and not land.reduction.kappa:  # a sphere: on all parabolas alike
+        small[:] = _is_flat(land.reduction, states[rows[0]])
+        rows = rows[:0]
+    for index in rows:
         small[index] = _is_flat(land.reduction, states[index])
     return small
 

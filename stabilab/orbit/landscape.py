@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..numbers.double_double import TURN, Twofold
+from .barriers_arrays import MarginsByArcs, margins_by_arcs
 from .conic import Conic, conic_of
 from .potential import potential
 from .reduction import Reduction, reduce
@@ -82,6 +83,11 @@ class Landscape:
         return False
 
     @cached_property
+    def barriers_by_arcs(self) -> MarginsByArcs | None:
+        """The margins of many states by arcs from these, where most orbits lend themselves to it."""
+        return margins_by_arcs(self.reduction)
+
+    @cached_property
     def kernel_input(self):
         """(axes, high and low parts (10, 2) of the constants as `arc_kernel` names them, arc of a full circle
         or inf, what K changes by a radian of it)."""
@@ -130,22 +136,9 @@ class Landscape:
         """False where no orbit has a barrier."""
         return True
 
-    def nearly_flat(self, states: np.ndarray, place: Sequence[np.ndarray] | None = None):
+    def nearly_flat(self, states: np.ndarray):
         """(n,) True where the force along a parabola may not change at all; False on other reductions."""
         return np.zeros(len(states), bool)
-
-    def beside_fold(self, place: Sequence[np.ndarray]):
-        """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit; of
-        hyperbolas and parabolas."""
-        raise NotImplementedError
-
-    def roughness(self, size: Sequence[np.ndarray]):
-        """Magnitude of the potential's terms, whose rounding limits a height; of these, too."""
-        raise NotImplementedError
-
-    def beside_centre(self, place: Sequence[np.ndarray]):
-        """(n,) True where the doubles do not hold the orbit's own size."""
-        return np.zeros(np.shape(place[0]), bool)
 
     def polished(self, spot: Sequence[np.ndarray]):
         """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step.
@@ -269,8 +262,6 @@ class ConicLandscape(Landscape):
 
 
 # --- The same on circles, hyperbolas and parabolas, one class each
-# share of a cubic's discriminant: two roots 1e-7 apart, hardly distinct in doubles, leave 1e-14 of it or more
-DOUBLE_ROOT = 1e-10
 # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 ROUNDINGS = 64
 # of the asymptotes' distance from a hyperbola's centre: nearer to it the conic's doubles place no equilibrium
@@ -280,30 +271,6 @@ CENTRE = 1e-10
 def angle_between(index: Sequence[np.ndarray], point: Sequence[np.ndarray] | np.ndarray):
     """theta from one place on a circle to another, the short way round: in [-pi, pi]."""
     return np.arctan2(point[0] * index[1] - point[1] * index[0], point[0] * index[0] + point[1] * index[1])
-
-
-def _discriminant(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray):
-    """The terms of the discriminant of a cubic, highest power first."""
-    return 18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2
-
-
-def _real_roots(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray):
-    """(n, 3) the real roots of cubics, to the rounding of their coefficients: three, or one and NaN. Those
-    that a cosine gives, or Cardano's formula in the order that does not cancel; eigenvalues of companion
-    matrices would cost ten times as much."""
-    with np.errstate(all="ignore"):
-        middle = -b / (3 * a)
-        p, q = (c + b * middle) / a, (d + middle * (c + 2 * b * middle / 3)) / a
-        three = 4 * p**3 + 27 * q * q < 0
-        reach = np.sqrt(-p / 3)
-        third = np.arccos(np.clip(-q / (2 * reach**3), -1, 1)) / 3
-        roots = np.array([2 * reach * np.cos(third - k * TURN / 3) for k in range(3)])
-        item = -np.copysign(np.cbrt(0.5 * np.abs(q) + np.sqrt(np.maximum(0.25 * q * q + p**3 / 27, 0))), q)
-        other = np.where(item == 0, 0.0, -p / (3 * item))
-        # where p > 0 the sum would cancel
-        alone = np.where(p > 0, -q / (item * item + p / 3 + other * other), item + other)
-        lone = np.array([np.where((p == 0) & (q == 0), 0.0, alone), *np.full((2, *alone.shape), np.nan)])
-        return (middle + np.where(three, roots, lone)).T
 
 
 class CircleLandscape(ConicLandscape):
@@ -424,49 +391,24 @@ class ParabolaLandscape(Landscape):
         return 0.5 * w * w
 
     def critical(self, place: Sequence[np.ndarray], barriers_only: bool = False):
-        force = self.potential.force(place)
-        first, second, third = self.potential.derivatives(place)
-        cubic = np.array(np.broadcast_arrays(third / 6, second / 2, first, force), float)
-        if not np.any(cubic[0]):
-            with np.errstate(all="ignore"):
-                roots = np.where(cubic[2] != 0, -cubic[3] / cubic[2], np.nan)[:, None]
-        else:
-            roots = _real_roots(*cubic)
-            for _ in range(3):
-                value = ((cubic[0][:, None] * roots + cubic[1][:, None]) * roots
-                         + cubic[2][:, None]) * roots + cubic[3][:, None]
-                slope = (3 * cubic[0][:, None] * roots + 2 * cubic[1][:, None]) * roots + cubic[2][:, None]
-                with np.errstate(all="ignore"):
-                    step = value / slope
-                roots = roots - np.where(np.isfinite(step) & (np.abs(step) <= 0.1 * np.abs(roots)), step, 0)
-        point = np.array(self.potential.move(tuple(v[:, None] for v in place),
-                                            np.where(np.isnan(roots), 0.0, roots)))
-        barrier = (self.potential.slope(tuple(point)) > 0) & ~np.isnan(roots)
-        return roots, point, barrier
+        force, derivatives = self.potential.force(place), self.potential.derivatives(place)
+        offsets = np.full((len(force), 3), np.nan)
+        for row, (first, second, third) in enumerate(zip(*(np.broadcast_to(v, force.shape)
+                                                           for v in derivatives))):
+            roots = np.roots((third / 6, second / 2, first, force[row]))
+            real = roots[np.isreal(roots)].real
+            offsets[row, :len(real)] = real
+        points = np.array(self.potential.move(tuple(v[:, None] for v in place), np.nan_to_num(offsets)))
+        return offsets, points, (self.potential.slope(tuple(points)) > 0) & ~np.isnan(offsets)
 
-    def beside_fold(self, place: Sequence[np.ndarray]):
-        pot, (first, second, third) = self.potential, self.potential.derivatives(place)
-        steep, bent, _ = pot.derivative_terms(place)
-        cubic = third / 6, second / 2, first, pot.force(place)
-        blurred = cubic[0], *(np.abs(v) + ROUNDINGS * EPS * size for v,
-                              size in zip(cubic[1:], (bent / 2, steep, pot.terms(place))))
-        terms, largest = _discriminant(*cubic), sum(map(np.abs, _discriminant(*blurred)))
-        size = sum(map(np.abs, terms))
-        return (np.abs(sum(terms)) <= DOUBLE_ROOT * size + (largest - size)) & (largest > 0)
-
-    def roughness(self, size: Sequence[np.ndarray]):
-        pot, s = self.potential, size[0] + size[1]
-        return np.abs(pot.kappa) * s * s + (abs(pot.rho) + abs(pot.sigma)) * s + abs(pot.m)
-
-    def nearly_flat(self, states: np.ndarray, place: Sequence[np.ndarray] | None = None):
-        if not self.sense:
+    def nearly_flat(self, states: np.ndarray):
+        r = self.reduction
+        # the third derivative is the same on all orbits
+        if not self.sense or r.kappa * (r.q * r.p0 * r.p0 + r.p * r.q0 * r.q0):
             return super().nearly_flat(states)
-        place = self.start(states)[0] if place is None else place
-        first, _, third = self.potential.derivatives(place)
-        size = abs(self.potential.kappa) + abs(self.potential.rho) + abs(self.potential.sigma)
-        # far above rounding: exact arithmetic tells the rest
-        small = 1e-5 * size * (1 + np.abs(place[0]) + np.abs(place[1])) ** 2
-        return (np.abs(first) <= small) & (np.abs(third) <= small)
+        place = self.start(states)[0]
+        # far above rounding: exact arithmetic decides
+        return np.abs(self.potential.slope(place)) <= 1e-9 * self.potential.derivative_terms(place)[0]
 
 
 GEOMETRIES = {-1: CircleLandscape, 1: HyperbolaLandscape, 0: ParabolaLandscape}

@@ -301,17 +301,6 @@ class Parabola:
         first, second, third = self.derivatives(place)
         return -y * (force + y * (first / 2 + y * (second / 6 + y * third / 24)))
 
-    def rise_and_rounding(self, y: np.ndarray, spot: Sequence[np.ndarray], place: Sequence[np.ndarray],
-                          size: Sequence[np.ndarray]):
-        """As of `Hyperbola`; the way from the place is a root of a cubic."""
-        first, second, third = (abs(v) for v in self.derivatives(spot))
-        at, bend, curl = (abs(v) for v in self.derivatives(place))
-        route = abs(y)
-        cubic = self.terms(place) + route * (at + route * (bend / 2 + route * curl / 6))
-        terms = (4 * route * route * (first / 2 + route * (second / 6 + route * third / 24))
-                 + abs(self.force(place)) * (2 * route + 4 * cubic / first))
-        return self.rise(y, spot), EPS * terms + abs(self.force(spot) * y)
-
 
 def derivatives_on_parabola(r, u, v):
     """F', F'', F''' along a parabola at (omega_j, omega_k) = (u, v), where p q = 0 and F is a cubic. r: its

@@ -65,7 +65,7 @@ class Problem:
     @property
     def reach(self):
         """How far out the centre of the circle or hyperbola lies, in units of the state. Heights
-        in canonical doubles lose this factor; from 1e4 on margins come from the twofold numbers of `margins_kernel`."""
+        in canonical doubles lose this factor; from 1e4 on margins come from the twofold numbers of `equilibria_kernel`."""
         D, i = self.inputs, self.axis
         centre = max(abs(D[3] / (D[self.j] - D[i])), abs(D[4] / (D[self.k] - D[i])))
         return min(centre / max(map(abs, self.state)), 1e4)

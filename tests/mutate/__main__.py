@@ -32,7 +32,7 @@ SUBJECTS = {
                   "orbit/fine/test_rows", "orbit/extremes/test_arrays")),
     "quadrature": (("orbit/profile", "orbit/spin_up"),
                    ("orbit/extremes/test_extremes", "orbit/flow/test_flow")),
-    "kernels": (("orbit/arc_kernel", "orbit/equilibria_kernel", "orbit/rows_kernel", "orbit/turns_kernel", "orbit/margins_kernel"),
+    "kernels": (("orbit/arc_kernel", "orbit/equilibria_kernel", "orbit/rows_kernel", "orbit/turns_kernel"),
                 ("orbit/test_against_the_potential", "orbit/test_batches_of_random_scenes",
                  "orbit/fine/test_rows", "orbit/fine/test_nearly_equal_moments")),
     "separatrix": (("orbit/separatrix/branches", "orbit/separatrix/homoclinic",

@@ -11,11 +11,12 @@ import random
 import mpmath as mp
 import numpy as np
 import pytest
+import sympy
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate
 from stabilab.numbers.numba_door import installed
-from stabilab.orbit import arc_kernel, equilibria_kernel, margins_kernel
+from stabilab.orbit import arc_kernel, barriers_arrays, equilibria_kernel
 from stabilab.orbit.extremes import precise_extremes
 from stabilab.orbit.extremes_arrays import settle_rows, trapped_rows
 from stabilab.orbit.fate import decide
@@ -148,28 +149,79 @@ def test_spin_ups_and_rotations_have_the_digits_of_balls_whatever_the_difference
     assert min(rows.values()) > 20 and open_rows <= sum(rows.values()) / 50
 
 
+def assert_margins(land, axis, states, margins):
+    """Promised: 1e-12 of the kinetic energy about the torque's axis and of the barrier's height. Returns how
+    many barriers there are."""
+    barriers = 0
+    for state, margin in zip(states.tolist(), margins):
+        exact = decide(Orbit(land.reduction, state)).margin
+        exact *= float(land.reduction.exact_energy_unit / land.reduction.weight)
+        if math.isinf(exact):  # no barrier
+            assert margin == (math.inf if land.potential.walled else -math.inf), (land.reduction, state)
+            continue
+        energy = 0.5 * (state[axis] + float(land.reduction.s)) ** 2
+        assert abs(margin - exact) <= 1e-12 * (energy + abs(energy + exact)), (land.reduction, state)
+        assert (margin > 0) == (exact > 0), (land.reduction, state)
+        barriers += 1
+    return barriers
+
+
 @pytest.mark.parametrize("seed", [4, *later(range(80, 100))])
 def test_margins_have_the_digits_and_the_sign_of_balls_whatever_the_difference_of_two_moments(seed):
-    """Promised: 1e-12 of the kinetic energy about the torque's axis and of the barrier's height."""
     draw, full, barriers, open_rows = scenes(seed), 0, 0, 0
     for _ in range(40):
         scene, axis, rng = next(draw)
         land, states = landscape(scene), random_states(scene, axis, rng, 10)
         results, settled = np.full(10, np.nan), np.zeros(10, bool)
         with np.errstate(all="ignore"):
-            margins_kernel.margins(states, np.arange(10), *land.kernel_input, results, settled)
+            equilibria_kernel.margins(states, np.arange(10), *land.kernel_input, results, settled)
         full, open_rows = full + 10, open_rows + np.count_nonzero(~settled)
-        for state, margin in zip(states[settled].tolist(), results[settled]):
-            exact = decide(Orbit(land.reduction, state)).margin
-            exact *= float(land.reduction.exact_energy_unit / land.reduction.weight)
-            if math.isinf(exact):  # no barrier
-                assert margin == (math.inf if land.potential.walled else -math.inf), (scene, state)
-                continue
-            energy = 0.5 * (state[axis] + float(land.reduction.s)) ** 2
-            assert abs(margin - exact) <= 1e-12 * (energy + abs(energy + exact)), (scene, state)
-            assert (margin > 0) == (exact > 0), (scene, state)
-            barriers += 1
+        barriers += assert_margins(land, axis, states[settled], results[settled])
     assert full == 400 and barriers > 100 and open_rows <= 4
+
+
+@pytest.mark.parametrize("seed", [7, *later(range(120, 140))])
+def test_margins_by_arcs_have_the_digits_and_the_sign_of_balls(seed):
+    """Parabolas, hyperbolas and circles of nearly equal moments, and circles about an axis across which they
+    are nearly equal, on which the force is nearly one sine."""
+    draw, full, doubts = scenes(seed), 0, 0
+    barriers = {1: 0, 0: 0, -1: 0, "across": 0}
+    while min(barriers.values()) < 15:
+        scene, axis, rng = next(draw)
+        if across := rng.random() < 0.2:
+            D = list(map(float, scene.body.exact))
+            D[axis - 1] = D[axis - 2] * (1 + 10 ** rng.uniform(-16, -3))
+            if 2 * max(D) >= sum(D):
+                continue
+            scene = Scene(Body(D), *scene.effects)
+        land = landscape(scene)
+        if not land.barriers_by_arcs:
+            continue
+        states = random_states(scene, axis, rng, 8)
+        results, doubtful = land.barriers_by_arcs(states)
+        full, doubts = full + 8, doubts + np.count_nonzero(doubtful)
+        barriers["across" if across and land.e < 0 else land.e] += assert_margins(
+            land, axis, states[~doubtful], results[~doubtful])
+    assert doubts <= 0.05 * full
+
+
+def test_the_discriminant_tells_how_many_roots_of_a_quartic_are_real():
+    """Quartics and cubics of random roots; 27 times the discriminant as SymPy forms it."""
+    rng, x = np.random.default_rng(1), sympy.symbols("x")
+    for number in range(40):
+        pairs, high = number % 3, float(number % 4 > 0)
+        roots = rng.integers(-9, 9, 4) + (np.arange(4) + 0.5) / 7  # distinct
+        quartic = np.polynomial.polynomial.polyfromroots(roots[: 4 - 2 * pairs])
+        for _ in range(pairs):
+            quartic = np.polynomial.polynomial.polymul(quartic, (rng.uniform(1, 9), rng.uniform(-1, 1), 1.0))
+        if not high:  # a cubic, whose fourth root is infinite
+            quartic = np.polynomial.polynomial.polyfromroots(roots[:3])
+        quartic = np.append(quartic, 0.0)[:5]
+        exact = sympy.Poly(list(map(sympy.Rational, quartic[::-1])), x)
+        expected = float(27 * (exact.discriminant() if high else exact.LC() ** 2 * exact.discriminant()))
+        found = barriers_arrays.discriminant([np.array([v]) for v in quartic])[0]
+        assert found == pytest.approx(expected, rel=1e-6)
+        assert (found < 0) == (high and pairs == 1)
 
 
 def test_a_margin_beside_a_fold_or_at_a_barrier_is_left_to_exact_numbers():
@@ -177,16 +229,16 @@ def test_a_margin_beside_a_fold_or_at_a_barrier_is_left_to_exact_numbers():
     equilibria merges where the cubic has a double root: K' = 1 - 3 T + 4 T^3 = (1 - 2 T)^2 (1 + T)."""
     saddle = landscape(ScaledGyrostat("0.25", "0.5", (0, 0, 1)))
     results, settled = np.full(2, np.nan), np.zeros(2, bool)
-    margins_kernel.margins(np.array([[0.0, -2.0, 0.3], [1.0, 2.0, 3.0]]), np.arange(2), *saddle.kernel_input,
+    equilibria_kernel.margins(np.array([[0.0, -2.0, 0.3], [1.0, 2.0, 3.0]]), np.arange(2), *saddle.kernel_input,
                            results, settled)
     assert settled.tolist() == [False, True]
     series = 0.0, 1.0, -1.5, 0.0, 0.0, 1.0, 0.0  # K' = f0 + 2 f1 T + 4 g T^3 on a parabola
     room = np.empty((2, 8)), np.empty(8), np.empty(16)
-    assert equilibria_kernel.equilibria(series, margins_kernel.DOUBT, *room) == -1
+    assert equilibria_kernel.equilibria(series, equilibria_kernel.DOUBT, *room) == -1
     near = 0.0, 1.0, -1.49, 0.0, 0.0, 1.0, 0.0  # a little less steep: the pair is gone, and clearly so
-    assert equilibria_kernel.equilibria(near, margins_kernel.DOUBT, *room) == 1
+    assert equilibria_kernel.equilibria(near, equilibria_kernel.DOUBT, *room) == 1
     steep = 0.0, 1.0, -1.51, 0.0, 0.0, 1.0, 0.0
-    assert equilibria_kernel.equilibria(steep, margins_kernel.DOUBT, *room) == 3
+    assert equilibria_kernel.equilibria(steep, equilibria_kernel.DOUBT, *room) == 3
 
 
 @pytest.mark.parametrize("seed", [1, *later(range(60, 80))])
