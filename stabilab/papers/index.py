@@ -16,8 +16,10 @@ from ..theories.printed.claims import Paper, Row, key
 from ..theories.printed.claims import paper as paper_named
 from ..theories.printed.claims import papers as all_papers
 from . import table
-from .audit.page import anchor, counted
+from .audit.page import anchor, counted, typeset
+from .families import WAVES
 from .figures.catalogue import FIRST, of_paper
+from .figures.figure import Figure
 from .table import EXTREMES
 
 if TYPE_CHECKING:
@@ -226,24 +228,40 @@ def link(paper: Paper, item: str) -> str:
 def claims(paper: Paper, group: Sequence[Any]) -> list[dict[str, Any]]:
     """Of every claim of the text that can be checked: what it says, whether it is so, what is so, and the
     anchor of its row on the page of the audit."""
-    rows = []
-    for item in group:
-        if not item.row.equation.startswith("text") or item.verdict not in ("holds", "only-if", "wrong"):
-            continue
-        only = f"only if {item.condition}" if item.verdict == "only-if" else ""
-        so = item.correction
-        if item.row.kind == "number" and so:  # the truth stands in the note, where the formula is wrong
-            so = "; ".join(filter(None, [f"by that formula {so}", item.row.options.get("note", "")]))
-        rows.append({"says": written(item.row.says), "right": item.verdict == "holds",
-                      "is": written("; ".join(filter(None, [only, so]))),
-                      "link": f"audit.html#{anchor(paper.name, item.row.equation)}"})
-    return rows
+    return [_claim(paper, item) for item in group
+            if item.row.equation.startswith("text") and item.verdict in ("holds", "only-if", "wrong")]
 
 
-def of_figure(paper: Paper, group: Sequence[Any], number: int) -> list[dict[str, str]]:
-    """The rows of the audit that concern a figure: equation and link."""
-    return [{"equation": item.row.equation, "link": f"audit.html#{anchor(paper.name, item.row.equation)}"}
-            for item in group if number in item.row.options.get("figures", ())]
+def _claim(paper: Paper, item: Any) -> dict[str, Any]:
+    """What a claim says, whether it is so, what is so in words and in formulas, and the anchor of its row."""
+    row, note = item.row, item.row.options.get("note", "")
+    so, formulas = [item.correction], []
+    if item.verdict in ("only-if", "wrong") and row.kind in ("holds", "solves", "equilibrium", "order"):
+        so, formulas = [", ".join(f"with {name} = {text}" for name, text in row.corrected_where.items())
+                        ], typeset(paper, row.corrected)
+    elif row.kind == "number" and item.correction:  # the truth stands in the note, where the formula is wrong
+        so = [item.correction if "judged_by" in row.options else f"by that formula {item.correction}", note]
+    elif item.verdict == "not-checkable":
+        so = [row.options.get("because") or row.options.get("completed", ""), item.correction]
+    if item.verdict == "only-if":
+        so = [f"only if {item.condition}", *so]
+    return {"says": written(row.says), "right": item.verdict == "holds", "word": WORDS[item.verdict],
+            "is": written("; ".join(filter(None, so))), "formulas": formulas,
+            "link": f"audit.html#{anchor(paper.name, row.equation)}"}
+
+
+# verdict of a claim -> its word on the page of its paper
+WORDS = {"holds": "right", "only-if": "only if", "wrong": "not so", "not-checkable": "not checked"}
+
+
+def of_figure(paper: Paper, group: Sequence[Any], number: int) -> dict[str, list[dict[str, Any]]]:
+    """What a page says beside a figure: "rows", the equations audited with their links, and "claims", the
+    sentences of the text about it."""
+    about = [item for item in group if number in item.row.options.get("figures", ())]
+    return {"rows": [{"equation": item.row.equation,
+                      "link": f"audit.html#{anchor(paper.name, item.row.equation)}"}
+                     for item in about if not item.row.equation.startswith("text")],
+            "claims": [_claim(paper, item) for item in about if item.row.equation.startswith("text")]}
 
 
 # number of a figure of the main paper -> families of its cases
@@ -252,10 +270,13 @@ OF_FIGURES = {**dict.fromkeys(range(1, 8), ("minor-axis",)), **dict.fromkeys(ran
               **dict.fromkeys((16, 17), ("middle-axis",))}
 
 
-def cases_of(number: int, pages: Mapping[str, str]) -> list[dict[str, str]]:
-    """The cases that a figure of the main paper draws: name and page. pages: case -> its page."""
-    return [{"name": name, "link": pages[name]} for family in OF_FIGURES.get(number, ())
-            for name in (f"{family}-{lam}" for lam in table.LAMBDAS) if name in pages]
+def cases_of(figure: Figure, pages: Mapping[str, str]) -> list[dict[str, str]]:
+    """The cases that a figure draws: name and page, of a combination of a sweep its row there. pages: case
+    file -> its page."""
+    main = {(f"{family}-{lam}", ""): f"{family}-{lam}" for lam in table.LAMBDAS
+            for family in (OF_FIGURES.get(figure.number, ()) if not figure.paper else ())}
+    return [{"name": name, "link": pages[file] + (f"#{file}{variant}" if variant not in ("", WAVES) else "")}
+            for (file, variant), name in (main or figure.cases).items() if file in pages]
 
 
 def data() -> list[tuple[str, str]]:

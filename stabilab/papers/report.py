@@ -40,9 +40,9 @@ from ..version import __version__
 from . import cost_effects, cost_growth, index, table
 from .audit import page as audit_page
 from .audit import papers as audited_papers
-from .families import sweep
+from .families import FAMILIES, sweep
 from .figures import catalogue, panels
-from .figures.figure import words
+from .figures.figure import links, words
 from .validation import comparison as validation
 
 # --- A paper's chapter
@@ -114,8 +114,9 @@ def section(name: str, folder: Path) -> dict:
             "figures": [drawn(row, folder) for row in catalogue.of_paper(chapter.paper)]}
     try:
         built["parameters"] = _parameters(sweep(chapter.compared[0][0])[chapter.compared[0][1]])
-        built["compared"] = [row for name, variant in chapter.compared
-                            for row in _errors(sweep(name)[variant], chapter.end)]
+        names = links(*FAMILIES[chapter.paper].values())
+        built["compared"] = [row | {"case": names.get(case, row["case"])} for case in chapter.compared
+                            for row in _errors(sweep(case[0])[case[1]], chapter.end)]
         built["sensible"] = _sensible(chapter, folder)
     except StabilabError as error:  # no such case yet, or a motion that cannot be run: the chapter says so
         built["problem"] = str(error)
@@ -123,11 +124,12 @@ def section(name: str, folder: Path) -> dict:
 
 
 def drawn(row, folder: Path) -> dict:
-    """What a page says of a figure, whose pictures are drawn into `folder`/figures; rows: of the audit."""
+    """What a page says of a figure, whose pictures are drawn into `folder`/figures; rows, claims: of the
+    audit, see `index.of_figure`; cases: of `index.cases_of`."""
     path, *more = catalogue.write([row.number], folder / FOLDER, paper_name=row.paper or None)
     return picture(path, FOLDER, id=f"{row.paper or 'figure'}-{row.number}", number=row.number,
                    title=row.title, caption=row.caption, tolerance=row.tolerance, differences=words(row),
-                   command=row.command, rows=(), cases=(),
+                   command=row.command, rows=(), claims=(), cases=(),
                    more=[FOLDER + part.name for part in more])
 
 
@@ -253,17 +255,23 @@ def _papers(cases, folder, result, nav):
     rows = [entry | {"html": Markup(table.html_fragment(entry["table"], pages))}
             for entry in result["tables"]]
     main = result[f"audit of {MAIN}"]
-    drawn = [result[f"figure {row.number}"] | {"rows": index.of_figure(*main, row.number),
-                                               "cases": index.cases_of(row.number, pages)}
-             for row in catalogue.FIGURES]
+    drawn = [_with_links(result[f"figure {row.number}"], row, main, pages) for row in catalogue.FIGURES]
     html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
                paper=table.PAPER, tables=rows, nav=nav, here="constant-torque.html", data=index.data(),
                claims=index.claims(*main), figures=drawn)
     audits = {audit[0].figures: audit for audit in (result[f"audit of {name}"] for name in audited_papers())}
     for item in CHAPTERS:
-        html.write(folder / f"{item.paper}.html", "chapter.html", chapter=result[f"chapter {item.paper}"],
+        built, rows = result[f"chapter {item.paper}"], catalogue.of_paper(item.paper)
+        built = built | {"figures": [_with_links(one, row, audits[item.paper], pages)
+                                     for one, row in zip(built["figures"], rows)]}
+        html.write(folder / f"{item.paper}.html", "chapter.html", chapter=built,
                    claims=index.claims(*audits[item.paper]), nav=nav, here=f"{item.paper}.html",
                    title=item.title)
+
+
+def _with_links(made: dict, row, audited, pages) -> dict:
+    """What a page says of a figure, with its rows of the audit and the pages of its cases."""
+    return made | index.of_figure(*audited, row.number) | {"cases": index.cases_of(row, pages)}
 
 
 GROUPS = (("Constant torque along a principal axis",

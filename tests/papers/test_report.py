@@ -259,7 +259,8 @@ def test_a_report_on_cases_alone_reads_none_of_the_papers(alone, several, hostil
 
 def test_a_sweep_is_one_table_with_a_column_for_its_key(several):
     text = (several[0].parent / "cases/torques.html").read_text(encoding="utf-8")
-    rows = re.findall(r"(?s)<tr>(.*?)</tr>", text)
+    rows = re.findall(r"(?s)<tr[^>]*>(.*?)</tr>", text)
+    assert 'id="torques-' in text  # of a row, to which figures lead
     assert "<th>torque[1] (N m)</th><th>torque[3] (N m)</th><th>fate</th>" in rows[0] and len(rows) == 4
     assert "each of 3 " in text and text.count("<img") == 1
     shown = [re.findall(r'<td class="nowrap">(.*?)</td>', row) for row in rows[1:]]

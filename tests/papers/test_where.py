@@ -28,14 +28,14 @@ def folder(tmp_path_factory):
     index.page(found, out)
     page.page(found, out / "audit.html")
     figure = {"title": "", "caption": "", "tolerance": "", "command": "", "file": "a.png", "size": [1, 1],
-              "differences": (), "rows": (), "cases": (), "narrow": None, "more": ()}
+              "differences": (), "rows": (), "claims": (), "cases": (), "narrow": None, "more": ()}
     tables = [{"number": one.number, "title": "", "wide": False, "rows": (), "files": (),
                "html": Markup(html_fragment(one))} for one in table.tables()]
     main, others = catalogue.FIRST, [name for name in catalogue.PAPERS if name != catalogue.FIRST]
     html.write(out / "constant-torque.html", "constant_torque.html", title="", paper="", tables=tables,
                data=index.data(), claims=index.claims(*found[0]),
                figures=[figure | {"number": row.number, "id": f"figure-{row.number}",
-                                  "cases": index.cases_of(row.number, {"minor-axis-100": "cases/minor-axis-100.html"})}
+                                  "cases": index.cases_of(row, {"minor-axis-100": "cases/minor-axis-100.html"})}
                         for row in catalogue.of_paper(main)])
     for name in others:
         chapter = {"id": name, "title": "", "about": "", "paper": "", "problem": "", "parameters": "D",

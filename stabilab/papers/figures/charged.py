@@ -13,7 +13,7 @@ from ...theories.charged_modes import horizon
 from .. import families
 from ..families import Span
 from . import panels
-from .figure import Figure, family_figures, listed, model_figure
+from .figure import Figure, family_figures, links, listed, model_figure
 
 PAPER = "Galal et al., charged rigid body with a gyrostatic moment (short form: Elneklawy)"
 FAMILIES, SPAN = families.FAMILIES["charged"], families.SPANS["charged"]
@@ -64,8 +64,13 @@ def _circle_lines():
     body, parts = _bodies("M1")[0], []
     for end in (2.0, 10.0, SPAN.end):
         column = _without_corrected(_columns("M1", Span(end, SPAN.count), marked=False)[0])
-        parts.append(replace(_by_35(body, column), heading=f"0 to {end:g} s"))
+        parts.append(replace(_by_35(body, column), heading=f"0 to {end:g} s", point=_centre(body)))
     return [(row, parts) for row in PANELS["circle"][1][2:]]
+
+
+def _centre(body) -> tuple[float, float]:
+    """Of the circle (35): (-M2, M1)/r0."""
+    return -float(body.torque[1]) / float(body.spin), float(body.torque[0]) / float(body.spin)
 
 
 def circle(plt):
@@ -73,12 +78,14 @@ def circle(plt):
     return panels.draw_lines(plt, f"Angular momentum across the axis $z_1$: "
                                   f"{FAMILIES['M1'].rest.removeprefix(', ')}, $M_1=4$ N m",
                              _circle_lines(), height=2.35,
-                             words={"printed": "as printed: (35), a circle"}, own=True)
+                             words={"printed": "as printed: (35), a circle"}, own=True,
+                             point_words="centre of (35), its mean")
 
 
 def _pointing_lines():
     row = panels.Row("$v_1/v_3$", "$v_2/v_3$", _direction, limits=((-4.5, 8.5), (-4.5, 8.5)))
-    return [(row, _columns(name, marked=False)) for name in FAMILIES]
+    return [(row, [replace(column, heading=column.heading + family.rest)
+                   for column in _columns(name, marked=False)]) for name, family in FAMILIES.items()]
 
 
 def pointing(plt):
@@ -136,6 +143,26 @@ def _circle(family: str, more: str = ""):
     return (f"By (35) G runs on a circle of radius M1/r0 = {listed(radii, '{}')} kg m^2/s. It leaves out the "
             "charge, whose force does change the momentum, and holds while the torque keeps its direction in "
             f"the tilted body, some seconds. {more}").rstrip()
+
+
+def mean_pointing(body) -> float:
+    """Angle of the mean momentum of (35) from z1, rad, with D3 r0 + lambda3 along the axis."""
+    return float(np.arctan2(np.hypot(*_centre(body)), float(body.inertia[2]) * float(body.spin)
+                            + float(body.gyrostat)))
+
+
+def exact_mean_pointing() -> float:
+    """Angle of the mean of the exact momentum from z1 over the time of the figures, rad; at the least M1."""
+    run = runs_of("M1")[0]["exact"]
+    mean = np.trapezoid(np.asarray(run.state["momentum"]), run.t, axis=0)
+    return float(np.arctan2(np.hypot(*mean[:2]), mean[2]))
+
+
+def _mean_pointing():
+    printed, true = np.degrees([mean_pointing(_bodies("M1")[0]), exact_mean_pointing()])
+    return (f"Its centre (0, M1/r0) is the mean momentum, which with D3 r0 + lambda3 along the axis points "
+            f"{printed:.0f} degrees off z1, where the paper takes the mean pointing error sigma1 << 1 rad; "
+            f"the mean of the exact momentum over {SPAN.end:g} s points {true:.0f} degrees off.")
 
 
 def _by_33(family: str, more: str):
@@ -230,7 +257,9 @@ FIGURES = tuple(sorted((
         lambda number, kind: {"words": {"printed": AS_PRINTED[kind]} if kind in AS_PRINTED else None,
                               "mark_words": "tilt reaches 0.1 rad"}),
     Figure(11, "Angular momentum across z1",
-           partial(_circle, "lambda3", "The print draws the small circle of a body that hardly tilts."),
-           circle, partial(_exactness, ("M1",)), "charged", _circle_lines),
+           lambda: _circle("lambda3", "The print draws the small circle of a body that hardly tilts. "
+                           + _mean_pointing()),
+           circle, partial(_exactness, ("M1",)), "charged", _circle_lines,
+           cases=dict(list(links(FAMILIES["M1"]).items())[:1])),
     Figure(21, "Direction of the velocity", _pointing, pointing, partial(_exactness, tuple(FAMILIES)),
-           "charged", _pointing_lines)), key=lambda row: row.number))
+           "charged", _pointing_lines, cases=links(*FAMILIES.values()))), key=lambda row: row.number))

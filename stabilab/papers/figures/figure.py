@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -17,7 +17,7 @@ from ...show.plot.body import BOX, PARTS, body
 from ...show.plot.in_space import levels
 from ...show.terminal import written
 from ...show.text.cost import share, short
-from ..families import FAMILIES, SPANS, Family, sweep
+from ..families import FAMILIES, SPANS, WAVES, Family, sweep
 from . import panels
 
 
@@ -28,7 +28,7 @@ class Figure:
     paper: the short name under which the command knows it, "" for the constant-torque paper; lines: a
     function that gives the figure's lines (panels.Row, columns) where it sets printed curves beside the exact
     motion (see `differences`); added: the paper has no such figure, and its number comes after the paper's
-    last."""
+    last; cases: (case file, variant of its sweep) of each motion that it draws -> what a link to it says."""
 
     number: int
     title: str
@@ -38,6 +38,7 @@ class Figure:
     paper: str = ""
     lines: Callable | None = None
     added: bool = False
+    cases: Mapping[tuple[str, str], str] = field(default_factory=dict)
 
     @property
     def caption(self) -> str:
@@ -75,7 +76,8 @@ SKETCH = ("a sketch: directions and the proportions of the box are those of the 
 def model_figure(name: str, paper: str = "") -> Figure:
     """Figure 1 of a paper, from a case file of the repository: the body with every effect of its scene."""
     return Figure(1, "The model", lambda: _of_model(sweep(name)[""]),
-                  lambda plt: body(sweep(name)[""], size=(7.2, 6.6), bare=True).figure, SKETCH, paper)
+                  lambda plt: body(sweep(name)[""], size=(7.2, 6.6), bare=True).figure, SKETCH, paper,
+                  cases={(name, ""): name})
 
 
 def _of_model(case: Case) -> str:
@@ -104,7 +106,20 @@ def _of_family(family: Family, paper, number, title, caption, lines, models, loo
         return f"{panels.exactness(family.runs(span))}; {models}; {span.count} points{more}"
     return Figure(number, f"{title}: {family.name}", caption,
                   lambda plt: panels.draw_lines(plt, title + family.rest, lines(), **looks), exact, paper,
-                  lines)
+                  lines, cases=links(family))
+
+
+def links(*all_families: Family) -> dict[tuple[str, str], str]:
+    """Each case of the families -> its number that is varied, of a combination of a sweep also the others,
+    and its name; of a motion with the wheel that waves need, that its file has another."""
+    result: dict[tuple[str, str], str] = {}
+    for family in all_families:
+        for value, (file, variant) in family.cases.items():
+            rest = family.rest if variant not in ("", WAVES) else ""
+            name = f"{file}, there with another wheel" if variant == WAVES else file + variant
+            numbers = plain(f"{family.symbol} = {value:g} {family.unit}{rest}".replace("=", " = "))
+            result.setdefault((file, variant), f"{' '.join(numbers.split())} ({name})")
+    return result
 
 
 # --- Level curves of an integral in a plane

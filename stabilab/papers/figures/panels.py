@@ -50,6 +50,8 @@ ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z}
               for c, (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
 NEIGHBOUR_LOOKS = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5}
                for c, (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
+# a point that printed formulas give
+POINT = {"color": style.ORANGE, "marker": "+", "markersize": 11, "markeredgewidth": 2, "linestyle": "none"}
 LINE = 13  # points from a line of words above a panel to the next
 # in the legend, after the exact motion
 ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")
@@ -75,12 +77,13 @@ class Row:
 @dataclass(frozen=True)
 class Column:
     """One value of the parameter: heading; runs: model -> run; mark: a time to draw a vertical line at, or
-    None; refused: model -> why it has no curve."""
+    None; refused: model -> why it has no curve; point: (x, y) to mark in a plane, or None."""
 
     heading: str
     runs: dict = field(repr=False)
     mark: float | None = None
     refused: dict = field(default_factory=dict, repr=False)
+    point: tuple | None = None
 
 
 def columns_of(family: Family, span: Span) -> list[Column]:
@@ -100,9 +103,11 @@ def exactness(runs) -> str:
         f"at most")
 
 
-def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False) -> list:
+def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False,
+               point_words="") -> list:
     """The figures of lines (Row, [Column, ...]), of at most PANELS panels each. A line shares its limits,
-    unless each panel has its own; the last panels show printed curves alone that leave the limits shared."""
+    unless each panel has its own; the last panels show printed curves alone that leave the limits shared.
+    mark_words, point_words: what the legend says of the columns' marks and points."""
     words, count = MODEL_LABELS | (words or {}), len(lines[0][1])
     full = [(row, columns, None) for row, columns in lines if not own and _leaves(row, columns)]
     cells = [[(row, columns, c) for c in columns] for row, columns in lines]
@@ -110,11 +115,12 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
     each = max(1, PANELS // count)
     parts = [cells[n:n + each] for n in range(0, len(cells), each)]
     numbers = [f" ({n} of {len(parts)})" for n in range(1, len(parts) + 1)] if len(parts) > 1 else [""]
-    return [_picture(plt, title + number, part, (width * count, height), words, mark_words, own)
+    marked = mark_words, point_words
+    return [_picture(plt, title + number, part, (width * count, height), words, marked, own)
             for number, part in zip(numbers, parts)]
 
 
-def _picture(plt, title, lines, size, text, mark_words, own):
+def _picture(plt, title, lines, size, text, marked, own):
     """A figure of lines of cells (Row, all columns of its line, its own or None for printed curves alone)."""
     width, height = size
     heights, count = [height * (TALL if line[0][0].equal else 1) for line in lines], max(map(len, lines))
@@ -148,17 +154,19 @@ def _picture(plt, title, lines, size, text, mark_words, own):
     # numbers at the ends of axes, headings below labels
     figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if len(set(map(tuple, headings))) < 2 else 0.12)
     figure.suptitle(title, fontsize=11)
-    style.legend(figure, _entries(lines, text, mark_words))
+    style.legend(figure, _entries(lines, text, *marked))
     return figure
 
 
-def _entries(lines, text, mark_words) -> list:
+def _entries(lines, text, mark_words, point_words) -> list:
     """The rows of the legend of `_picture`."""
     cells = [cell for line in lines for cell in line]
     shown = [(row, c) for row, _, c in cells if c is not None]
     rows = [(text[name], LOOKS[name]) for name in ("exact", *ORDER) if any(name in c.runs for _, c in shown)]
     if mark_words and any(c.mark is not None and row.over_time for row, c in shown):
         rows.append((mark_words, style.MEANING["crossing"]))
+    if point_words and any(c.point is not None for _, c in shown):
+        rows.append((point_words, POINT))
     alone = next((columns for _, columns, c in cells if c is None), ())
     rows += [(f"alone: {c.heading}", look) for c, look in zip(alone, ALONE)]
     thin = any("corrected" in c.runs for c in alone)
@@ -223,6 +231,8 @@ def _panel(ax, row, column, limits):
             ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **cost.END)
     if column.mark is not None and row.over_time:
         ax.axvline(column.mark, **style.MEANING["crossing"])
+    if column.point is not None and not row.over_time:
+        ax.plot(*([value] for value in column.point), **POINT, zorder=2.4)
     ax.set_xlim(*limits[0])
     ax.set_ylim(*limits[1])
     if row.equal:
