@@ -14,7 +14,7 @@ from stabilab.errors import InputError
 from stabilab.papers import audit
 from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
 from stabilab.papers.audit.findings import examine, prove_systems, repairs, with_domain
-from stabilab.papers.audit.measured import missed as steps_missed
+from stabilab.papers.audit.trends import missed as steps_missed
 from stabilab.papers.families import SPANS
 from stabilab.papers.index import recorded as recorded_verdicts
 from stabilab.theories import cavity, charged, top
@@ -110,7 +110,7 @@ def test_the_repair_search_returns_most_of_the_flipped_formulas():
                                                             or sp.expand(a - b + left - right) == 0 for a,
                                                             b in fixed)
     print(tried, returned)
-    assert returned >= 0.75 * tried  # docs/audit.md tells the share
+    assert returned >= 0.75 * tried  # three of four, as docs/audit.md says
 
 
 def test_the_repair_search_gives_a_planted_sign_back():

@@ -21,7 +21,7 @@ from ...physics.equations import derive
 from ...physics.scene import Body, Scene
 from ...theories.printed.claims import FormulaError, Paper, Row, parse, sides
 from ...theories.printed.evaluate import Evaluator, Setting, Undefined, precise
-from . import measured
+from . import measured, trends
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -459,7 +459,7 @@ def tested(row: Row) -> tuple:
 # --- What a claim is held against, and whether the exact motion does what a claim of a model says
 YARDSTICKS = {"exact": "the exact motion", "linear": "the paper's linear model", "averaged1":
               "the averaged motion", "printed": "the paper's solution as printed"}
-OF_MODELS = ("trend", "side", "turns back", "closed")  # tests that take a model
+OF_MODELS = ("trend", "side", "turns back", "closed", "falls throughout", "waves")  # tests that take a model
 
 
 def judged_by(paper: Paper, row: Row) -> str:
@@ -467,11 +467,11 @@ def judged_by(paper: Paper, row: Row) -> str:
     if row.kind in ("definition", "not-checkable"):
         return ""
     if row.kind == "number":
-        return "the value of its own formula"
+        return row.options.get("judged_by", "the value of its own formula")
     if row.options.get("test") in OF_MODELS:
         return YARDSTICKS[_model(paper, row)]
     if row.kind == "test":
-        return row.options.get("judged_by", YARDSTICKS[measured.MODELS[paper.figures]] if paper.figures
+        return row.options.get("judged_by", YARDSTICKS[trends.MODELS[paper.figures]] if paper.figures
                                else "the equations of motion")
     return "the equations of motion" if row.system else "its own definitions"
 
@@ -488,13 +488,12 @@ def of_exact_motion(paper: Paper, row: Row) -> str:
         return "as said"
     if test != "trend":
         return "not so"
-    named = {key: arguments[key] for key in ("family", "part", "measure", "model")}
-    rows = [measured.measured(**named, axis=axis, only=arguments.get("only", ()), wheel=wheel)
-            for axis in measured.axes_of(arguments.get("axis")) for wheel in arguments.get("wheels", [None])]
+    keys = ("family", "part", "measure", "axis", "only", "model", "wheels")
+    rows = trends.of_all(**{key: arguments[key] for key in keys if key in arguments})
     failed = next(values for values in rows
-                  if measured.missed(values, arguments["goes"], arguments.get("within", measured.ROUNDING)))
+                  if trends.missed(values, arguments["goes"], arguments.get("within", trends.ROUNDING)))
     return f"not so: {', '.join(f'{value:.4g}' for value in failed)}"
 
 
 def _model(paper: Paper, row: Row) -> str:
-    return row.options.get("with", {}).get("model") or measured.MODELS[paper.figures]
+    return row.options.get("with", {}).get("model") or trends.MODELS[paper.figures]

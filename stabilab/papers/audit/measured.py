@@ -1,102 +1,22 @@
-"""Claims that no formula says, measured: how a quantity of a family of motions goes, on which side of zero it
-is, what figures show, which equilibria there are and how stable. TESTS: name -> (residual of the printed
-claim, of the corrected one), with the arguments that a row gives."""
+"""Claims that no formula says of a gyrostat under a torque, measured: what figures show, which equilibria
+there are and how stable. TESTS: name -> (residual of the printed claim, of the corrected one), of all papers,
+with the arguments that a row gives."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable
 from fractions import Fraction
-from functools import lru_cache
 
 import numpy as np
 
 from ...answers.simulate import trajectory
 from ...equilibrium.stability import invariants
 from ...physics.coefficients import scaling
-from ...physics.effects.gyrostat import Gyrostat
-from ...physics.scene import Body, Scene
-from ...theories.cavity import polar
-from ...theories.cavity_normal_form import constants
-from ...theories.charged import body_of, circle, one_frequency, solution
-from ...theories.follow import follow
+from ...physics.scene import Body
 from .. import table as paper
-from ..families import FAMILIES, SPANS, sweep, with_wheel
-from ..figures import cavity
 from ..printed_integrals import height
-
-# --- How a quantity goes as a number grows, and on which side of zero it is
-GOES = {"rises": lambda change, size: change > size, "falls": lambda change, size: change < -size,
-        "stays": lambda change, size: abs(change) <= size}
-ROUNDING = 1e-9  # a smaller relative change is none
-# paper -> the model that its texts speak of, whose motions are measured
-MODELS = {"constant-torque": "exact", "charged": "linear", "cavity": "averaged1", "top": "printed"}
-
-
-def _slope(t, x):
-    return np.polyfit(t, x, 1)
-
-
-MEASURES = {"amplitude": lambda t, x: np.ptp(x) / 2, "end": lambda t, x: x[-1],
-            "size at the end": lambda t, x: abs(x[-1]), "least": lambda t, x: x.min(),
-            "growth": lambda t, x: _slope(t, x)[0],
-            "amplitude about its growth": lambda t, x: np.ptp(x - np.polyval(_slope(t, x), t)) / 2,
-            "turns": lambda t, x: (np.diff(np.sign(np.diff(x))) != 0).sum(),
-            "sign changes": lambda t, x: (np.diff(np.sign(x)) != 0).sum(),
-            "fall at the end": lambda t, x: x.max() - x[-1]}
-
-
-def missed(values: Sequence[float], goes: str, within: float = ROUNDING) -> int:
-    """How many steps between neighbouring values do not go as the word says; within: of a value, a smaller
-    change is none."""
-    return sum(not GOES[goes](after - before, within * max(abs(before), abs(after)))
-               for before, after in zip(values, values[1:]))
-
-
-@lru_cache(maxsize=128)
-def _run(paper_name, file, variant, model, wheel):
-    case, times = sweep(file)[variant], SPANS[paper_name].times
-    if wheel is not None:
-        case = with_wheel(case, wheel)
-    run = follow(case, times, model)
-    if paper_name != "cavity" or model != "exact":
-        return run
-    return replace(run, state=run.state | polar(case.scene, case.state, run.t))
-
-
-def measured(family: str, part: str, measure: str, axis: int | None = None, only=(), model: str | None = None,
-             wheel: float | None = None) -> list[float]:
-    """A measure of a part of the state, or of one component of it, for each motion of a family ("charged e")
-    over the time of the paper's figures; only: the values that are taken; model: of `theories.follow`, else
-    that of MODELS; wheel: gyrostatic moment about axis 3 in place of the cases' own, N m s."""
-    paper_name, name = family.split(" ", 1)
-    runs = [_run(paper_name, *case, model or MODELS[paper_name], wheel)
-            for value, case in FAMILIES[paper_name][name].cases.items() if not only or value in only]
-    parts = [np.asarray(run.state[part]) for run in runs]
-    return [float(MEASURES[measure](run.t, x[:, axis - 1] if axis else x))
-            for run, x in zip(runs, parts)]
-
-
-def axes_of(axis: int | list[int] | None) -> list:
-    """The components that a claim names: one, several, or the part as a whole."""
-    return axis if isinstance(axis, list) else [axis]
-
-
-def _trend(family, part, measure, goes, axis=None, truth="", only=(), model=None, wheels=(None,),
-           within=ROUNDING):
-    """Steps of a family at which a measure does not go as a claim says; as it goes in truth. axis: one or
-    several; wheels: all the wheels that the text leaves open."""
-    rows = [measured(family, part, measure, item, only, model, wheel)
-            for item in axes_of(axis) for wheel in wheels]
-    return tuple(sum(missed(values, word, within) for values in rows) for word in (goes, truth or goes))
-
-
-def _side(family, part, axis, lies, only=(), model=None):
-    """How far the least of a component lies on the other side of zero than the word says; than its
-    opposite."""
-    value = min(measured(family, part, "least", axis, only, model))
-    below, above = max(0.0, -value), max(0.0, value)
-    return (below, above) if lies == "above" else (above, below)
+from .other_papers import TESTS as OTHERS
+from .trends import missed, side, trend
 
 
 # --- A gyrostat under a torque of any direction
@@ -225,10 +145,13 @@ def _capture():
 
 
 def _major_rule():
-    """The printed rule on the line of equilibria that a = b has: x1 = -a, x2 x3 = -1."""
+    """Whether there is no equilibrium at a != b; at a = b, where the line x1 = -a, x2 x3 = -1 is of them, how
+    often x3 > 1 is not stable or |x2| > 1 not unstable."""
     points = [(-0.2, -1 / g, g) for g in (-3, -1.6, -0.6, -0.3, 0.3, 0.6, 1.6, 3)]
-    return (misjudged(lambda x: x[2] > 1, points, 0.2, 0.2),
-            misjudged(lambda x: abs(x[2]) > abs(x[1]), points, 0.2, 0.2))
+    wrong = [(x[2] > 1 and not stable) or (abs(x[1]) > 1 and stable)
+             for x, stable in ((x, spectrum_is_stable(x, 0.2, 0.2)) for x in points)]
+    return major_axis_ideal("1/5", "2/5"), sum(wrong) + misjudged(lambda x: abs(x[2]) > abs(x[1]), points,
+                                                                  0.2, 0.2)
 
 
 def _always_stable():
@@ -252,6 +175,18 @@ def _seconds():
     """1 less the root of k; the seconds of one tau, from the scaling of the package (u = 1), less its
     inverse."""
     return 1 - math.sqrt(1 / 12), float(scaling(Body(paper.INERTIA), Fraction(1)).time) - math.sqrt(12)
+
+
+def _off_the_planes():
+    """Of the bounded motion from (2.5, 4, 2.9), lambda1 = 300: the farthest of the extremes of x1 and x2 from
+    the planes x3 = 0 and x2 = 0; with x1 = -a in the place of x2 = 0 for those of x2."""
+    a = 0.6
+    run = trajectory(paper.printed_scene("minor", 300), (2.5, 4.0, 2.9), np.linspace(0, 20, 40001))
+    x = np.asarray(run.states)
+    at = [np.nonzero(np.diff(np.sign(np.diff(x[:, n]))))[0] + 1 for n in (0, 1)]
+    of_planes, of_own = np.abs(x[:, [2, 1]]).min(axis=1), np.minimum(np.abs(x[:, 2]), np.abs(x[:, 0] + a))
+    return (max(float(of_planes[part].max()) for part in at),
+            max(float(of_planes[at[0]].max()), float(of_own[at[1]].max())))
 
 
 # --- On the minor axis. The circle of a start has the radius A = hypot(x1 + a, x2), and c = b - a; the places
@@ -311,10 +246,10 @@ def _fold_radius():
 
 
 def _dividing():
-    """Equilibria close to the folds, at c = 1 (lambda1 = 500), that the printed line x1 + x2 = 0 misjudges
-    (it calls the side |x1| > |x2| of the hyperbola stable), and that the curve does."""
-    a, b = 1.0, 2.0
-    points = minor_equilibria(b, (-1.3, -1.1, -0.95, -0.85, -0.75, 0.75, 0.9, 1.1, 1.15, 1.3))
+    """Equilibria close to the folds, lambda1 = 100, that the printed line x1 + x2 = 0 misjudges (it calls the
+    side |x1| > |x2| of the hyperbola stable), and that the curve does."""
+    a, b = 0.2, 0.4
+    points = minor_equilibria(b, (-1.1, -0.97, -0.93, -0.85, -0.7, 0.9, 1.02, 1.08, 1.15, 1.3))
     return (misjudged(lambda x: abs(x[0]) > abs(x[1]), points, a, b),
             misjudged(lambda x: (x[0] + a) * (x[0] + b) > x[1] ** 2, points, a, b))
 
@@ -404,148 +339,14 @@ def _where_separatrices_end():
     return A - math.sqrt(2), max(abs(end - A) for end in ends)
 
 
-# --- The charged body, in the linear model that its paper solves
-def _waves(name):
-    """Amplitudes of p and wavelengths by (11) of a family, from rest: p1 + i q1 = (i A/W)(1 - e^(i W t))."""
-    bodies = [body_of(case) for case in FAMILIES["charged"][name].members]
-    rates = [abs(float(one_frequency(body).root)) for body in bodies]
-    return ([body.torque[0] / body.inertia[0] / rate for body, rate in zip(bodies, rates)],
-            [2 * math.pi / rate for rate in rates])
-
-
-def _wheel_lowers():
-    amplitudes, lengths = _waves("lambda3")
-    return missed(amplitudes, "falls") + missed(lengths, "falls"), 0
-
-
-def _charge_wavelength():
-    amplitudes, lengths = _waves("e")
-    return missed(lengths, "falls"), missed(amplitudes, "rises") + missed(lengths, "rises")
-
-
-def _torque_amplitude():
-    amplitudes, _ = _waves("M1")
-    return missed(amplitudes, "falls"), amplitudes[-1] / amplitudes[0] - 1.25
-
-
-def _radii(name):
-    """Of the circle (35), of each motion of a family."""
-    bodies = [body_of(case) for case in FAMILIES["charged"][name].members]
-    return [float(np.hypot(*circle(body, np.array(math.pi / body.spin)))) for body in bodies]
-
-
-def _circle_stays(family: str):
-    return (missed(_radii(family), "stays"),) * 2
-
-
-def _circle_of_35():
-    """Change of the radius between M1 = 4 and 5; its departure from proportionality."""
-    radii = _radii("M1")
-    return radii[-1] / radii[0] - 1, radii[-1] / radii[0] - 1.25
-
-
-def _axial(names, goes):
-    """At the end: at how many steps of the families axial velocity and displacement do not both go as said;
-    their largest relative change."""
-    steps, largest = 0, 0.0
-    for name in names:
-        ends = [measured(f"charged {name}", part, "end", 3) for part in ("velocity", "position")]
-        for pairs in zip(*(zip(values, values[1:]) for values in ends)):
-            steps += any(missed(pair, goes) for pair in pairs)
-            largest = max(largest, *(abs(after / before - 1) for before, after in pairs))
-    return steps, largest
-
-
-def _pointing():
-    """Mean direction of the velocity at 1e5 s less M1/(D3 r0^2), as printed, and less M1/(r0 (D3 r0 + lambda3
-    - charge's moment)), relative."""
-    body = body_of(FAMILIES["charged"]["M1"].members[0])
-    velocity = solution(body, np.linspace(0.9e5, 1e5, 2001)).velocity
-    visited = float((velocity[:, 1] / velocity[:, 2]).mean())
-    M1, D3, r0 = body.torque[0], body.inertia[2], body.spin
-    momentum = D3 * r0 + body.gyrostat - body.charge_moment
-    return visited / (M1 / (D3 * r0**2)) - 1, visited / (M1 / (r0 * momentum)) - 1
-
-
-# --- The liquid in a cavity
-def _frequency(scene: Scene) -> float:
-    """omega of (11) at the start, r = 1 rad/s; an imaginary one by its size."""
-    n = {name: float(value) for name, value in constants(scene).items()}
-    first, second = (n["d"] + sign * n["h"] - n["Gamma"] for sign in (1, -1))
-    return math.sqrt(abs(first * second)) / n["J0"]
-
-
-def _wheel_frequency():
-    """Share of the paper's steps of lambda3 at which the frequency does not grow; at which it does other than
-    whether Gamma is above d r says."""
-    falls = parted = steps = 0
-    for name in ("small", "large"):
-        scenes = [case.scene for case in FAMILIES["cavity"][name].members]
-        for scene, other in zip(scenes, scenes[1:]):
-            n = {key: float(value) for key, value in constants(scene).items()}
-            grows = _frequency(other) > _frequency(scene)
-            falls, parted = falls + (not grows), parted + (grows != (n["Gamma"] > n["d"] + abs(n["h"])))
-            steps += 1
-    return falls / steps, parted / steps
-
-
-def _liquid_mass():
-    """Moment of inertia of the frozen liquid as a sphere over the body's, less 1; how far the liquid's is
-    below the body's, which holds it."""
-    scene = sweep("liquid-base")[""].scene
-    liquid = scene.effect("liquid_cavity")
-    share = 2 / 5 * cavity.liquid_mass(liquid) * cavity.radius(liquid)**2 / float(scene.body.inertia[2])
-    return share - 1, max(0.0, 1 - share)
-
-
-def _liquid_charge():
-    """Relative change of the frequency from e = 0.01 to 10,000 C; of that with the charge's moment taken off
-    the wheel instead."""
-    plain, _, charged = (case.scene for case in FAMILIES["cavity"]["e"].members)
-    instead = Scene(plain.body, Gyrostat((0, 0, constants(charged)["Gamma"])))
-    return tuple(abs(_frequency(charged) / _frequency(other) - 1) for other in (plain, instead))
-
-
-def _turns_back(family: str, model: str | None = None):
-    """How many motions of a family have their largest phase at the end; how many have not."""
-    grown = [fall == 0 for fall in measured(f"cavity {family}", "phase", "fall at the end", model=model)]
-    return sum(grown), len(grown) - sum(grown)
-
-
-# --- The fast top
-def _lambda1(C: float) -> tuple[float, float]:
-    """(lambda1 of (10), Omega^2) of a top with A = 1, B = 1.1, z0' = 0.1, k = 0.2 and no l_z."""
-    A1, B1 = C - 1.1, (1 - C) / 1.1
-    square = -A1 * B1
-    return (0.1 * (A1 / (1.1 / C) - C) + 0.2 * (A1 - square)) / (1 - square), square
-
-
-def _poles():
-    """Size of lambda1 where C is 1e-9 short of A + B over that at C = 1.4, less one; the residue of the pole
-    seen 1e-6 short of it against 1e-9, relative."""
-    (nearby, at), (closer, there), (far, _) = _lambda1(2.1 - 1e-6), _lambda1(2.1 - 1e-9), _lambda1(1.4)
-    return abs(closer / far) - 1, closer * (1 - there) / (nearby * (1 - at)) - 1
-
-
-def _closed(model=None):
-    """Least distance of (p, q, r, gamma) from its start after 0.1 s, over its distance at most: a closed
-    curve comes back; how many of the motions do so to 1 %."""
-    shares = []
-    for case in FAMILIES["top"]["lx"].cases.values():
-        run = _run("top", *case, model or MODELS["top"], None)
-        states = np.hstack([run.state["omega"], run.state["gamma"]])[::2]  # one each millisecond
-        away = np.linalg.norm(states - states[0], axis=1)
-        shares.append(float(away[100:].min() / away.max()))
-    return max(shares), sum(fraction < 1e-2 for fraction in shares)
-
-
 TESTS: dict[str, Callable[..., tuple]] = {
-    "trend": _trend, "side": _side,
+    "trend": trend, "side": side, **OTHERS,
     # of a gyrostat under a torque
     "existence": _exists_below_zero, "eight": _printed_eight, "characteristic": _characteristic,
     "contradiction": _contradiction, "major stability": _major_rule, "spin-up": _spins_up,
     "ranges": _ranges, "capture": _capture,
-    "seconds": _seconds, "always stable": _always_stable, "middle dividing line": _middle_line,
+    "seconds": _seconds, "extremes off the planes": _off_the_planes, "always stable": _always_stable,
+    "middle dividing line": _middle_line,
     # on the minor axis
     "stability": _stability_after_13, "fold radius": _fold_radius, "dividing line": _dividing,
     "positions": lambda: (_fig4(paper.FIG4, as_printed=True), _fig4(_true_places())),
@@ -559,12 +360,4 @@ TESTS: dict[str, Callable[..., tuple]] = {
     "inside": lambda: (A - paper.fold_radii(C)[0], 0),
     # wells on the circle of radius sqrt(2): 1, on the right, x2 < 0
     "figure 7": lambda: (abs(sum(1 if h < 0 else 2 for h in _wells(math.sqrt(2), C)) - 1), 0),
-    # of the other papers
-    "wheel lowers": _wheel_lowers, "charge wavelength": _charge_wavelength,
-    "torque amplitude": _torque_amplitude, "circle stays": _circle_stays, "circle": _circle_of_35,
-    "pointing": _pointing,
-    "axial by wheel": lambda: _axial(("lambda3",), "falls"),
-    "axial by charge and torque": lambda: _axial(("e", "M1"), "rises"),
-    "turns back": _turns_back, "mass": _liquid_mass, "wheel frequency": _wheel_frequency,
-    "charge": _liquid_charge, "poles": _poles, "closed": _closed,
 }

@@ -19,8 +19,8 @@ from ...theories.printed.claims import Row, parse
 from ...theories.printed.evaluate import Evaluator, precise
 from .. import table as paper
 from ..families import sweep
-from ..figures import cavity
-from . import measured
+from ..figures import cavity, charged
+from . import measured, trends
 
 DIGITS = 4  # of a number in a text
 NAMED = re.compile(r"\{([A-Za-z]\w*)\}")
@@ -93,7 +93,7 @@ def _widens(axis: int) -> float:
 
 
 QUANTITIES: dict[str, Callable[..., Any]] = {
-    "measured": measured.measured,  # family, part, measure, axis, values of the family, model
+    "measured": trends.measured,  # family, part, measure, axis, values of the family, model
     "fold radius": lambda lambda1, which: paper.fold_radii(lambda1 / 500)[which],
     "places": _places,
     "loop area": lambda lambda1, side: measured.loop_area(lambda1, ("left", "right").index(side)),
@@ -102,4 +102,6 @@ QUANTITIES: dict[str, Callable[..., Any]] = {
     "seconds of tau": lambda: float(scaling(Body(paper.INERTIA), Fraction(1)).time),
     "radius of the cavity": lambda: _liquid()[0],
     "mass of the liquid": lambda: _liquid()[1],
+    "pointing error": lambda: measured.TESTS["pointing error"]()[0],
+    "exact pointing error": charged.exact_mean_pointing,
 }
