@@ -1,6 +1,8 @@
 """What the pictures of the papers show: spans that hold what captions claim, scales, letters, and curves that
 end or are missing."""
+import ast
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -151,6 +153,33 @@ def test_a_caption_speaks_of_panels_of_printed_curves_only_where_these_may_stand
     ("a phial, a pistachio, betas; theta-like", "a phial, a pistachio, betas; theta-like")])
 def test_captions_are_set_in_letters(plain, letters):
     assert written(plain) == letters
+
+
+# Numbers that stand in the sources of captions, of more than a digit, and why: all others are computed
+TYPED = {"4.72 500 4.2 4.5 100 15 1000 10,000": "of the papers' texts", "0.1": "a wheel, a start and a time of theirs",
+         "700 500 16 400": "settings of a picture: a grid, a tolerance, points", "0.6": "where motions are put"}
+NUMBER = re.compile(r"(?<![\w.^(/{:,])(?:\d+,\d{3}|\d+\.\d+|\d{2,})\b")
+
+
+def _captions(path):
+    """(line, text) of all parts of sentences in a source, without docstrings and forms of numbers."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    left = {id(node.body[0].value) for node in ast.walk(tree) if hasattr(node, "body") and isinstance(node.body, list)
+            and node.body and isinstance(node.body[0], ast.Expr)}
+    left |= {id(part) for node in ast.walk(tree) if isinstance(node, ast.FormattedValue) and node.format_spec
+             for part in ast.walk(node.format_spec)}
+    return [(node.lineno, node.value) for node in ast.walk(tree) if isinstance(node, ast.Constant)
+            and isinstance(node.value, str) and id(node) not in left]
+
+
+@pytest.mark.parametrize("name", ["catalogue", "minor_axis", "major_axis", "middle_axis", "charged", "cavity", "top"])
+def test_no_caption_has_a_typed_number_that_is_not_the_papers(name):
+    """Sentences alone: a text with a blank that is no title with its data, colour or name."""
+    known = set(" ".join(TYPED).split())
+    for line, text in _captions(Path(catalogue.__file__).with_name(f"{name}.py")):
+        if text.count(" ") > 1 and not re.search(r"Major axis from|20\d\d|\$|x\(0\)", text):
+            assert set(NUMBER.findall(text)) <= known, (name, line, text)
+    assert NUMBER.findall("up to 2.13 on 57 of 10,000") == ["2.13", "57", "10,000"]
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...theories.charged import body_of, one_frequency
 from ...theories.charged import circle as by_35
-from ...theories.charged_modes import horizon
+from ...theories.charged_modes import SMALL_ANGLE, horizon
 from .. import families
 from ..families import Span
 from . import panels
@@ -94,9 +94,12 @@ def pointing(plt):
                              height=2.6)
 
 
+AXIAL = 0.02  # m/s: below it the direction of the velocity is not drawn
+
+
 def _direction(run):
     v = np.asarray(run.state["velocity"])[1:]
-    axial = np.where(v[:, 2] > 0.02, v[:, 2], np.nan)
+    axial = np.where(v[:, 2] > AXIAL, v[:, 2], np.nan)
     return v[:, 0] / axial, v[:, 1] / axial
 
 
@@ -134,8 +137,8 @@ def _angles(family: str, more: str = ""):
     tilts = [np.hypot(*a[:, :2].T).max() for a in _state(family, "printed", "angles")]
     until = dict.fromkeys(f"{float(horizon(b)):.2f}" for b in _bodies(family))
     return (f"The print lets the tilt of psi and phi swing to {listed(tilts)} rad as if it were small. In "
-            f"truth 0.1 rad is outgrown after {listed(until, '{}')} s (dash-dotted), psi turns back before "
-            f"pi/2, phi runs on, and theta is not r0 t. {more}{_CUT}.")
+            f"truth {SMALL_ANGLE:g} rad is outgrown after {listed(until, '{}')} s (dash-dotted), psi turns back "
+            f"before pi/2, phi runs on, and theta is not r0 t. {more}{_CUT}.")
 
 
 def _circle(family: str, more: str = ""):
@@ -182,11 +185,19 @@ def _misprinted(family: str, part: str, unit: str):
             + ("; the changes that the text describes fit the corrected ones. " if family != "M1" else ". "))
 
 
+def _thrust(family: str) -> tuple[float, float]:
+    """(force along z, N; over the mass, m/s^2)."""
+    scene = FAMILIES[family].members[0].scene
+    force = float(scene.effect("body_force").exact[2])
+    return force, force / float(scene.body.mass)
+
+
 def _speed(family: str, more: str = ""):
-    last = _state(family, "printed", "velocity")[0][-1, 2]
+    last, thrust = _state(family, "printed", "velocity")[0][-1, 2], _thrust(family)
     largest = max(np.abs(v).max() for v in _state(family, "exact", "velocity"))
-    return (f"{_NAMED}Small angles keep the thrust of 3 N along z1: the print has v3 = 0.3 t, {last:.3g} m/s "
-            f"at 50 s. In truth the thrust turns with the body; no component passes {largest:.2g} m/s. "
+    return (f"{_NAMED}Small angles keep the thrust of {thrust[0]:g} N along z1: the print has v3 = "
+            f"{thrust[1]:g} t, {last:.3g} m/s at {SPAN.end:g} s. In truth the thrust turns with the body; "
+            f"no component passes {largest:.2g} m/s. "
             f"{more}{_misprinted(family, 'velocity', 'm/s')}{_THIN}")
 
 
@@ -194,8 +205,8 @@ def _way(family: str, more: str = ""):
     printed = _state(family, "printed", "position")
     true = [x[-1, 2] for x in _state(family, "exact", "position")]
     start = [float(np.hypot(*x[0, :2])) for x in printed]
-    return (f"The parabola eta3 = 0.15 t^2 ({printed[0][-1, 2]:.3g} m at 50 s) needs an axis that stays "
-            f"upright; in truth eta3 is {listed(true, '{:.0f}')} m. "
+    return (f"The parabola eta3 = {_thrust(family)[1] / 2:g} t^2 ({printed[0][-1, 2]:.3g} m at "
+            f"{SPAN.end:g} s) needs an axis that stays upright; in truth eta3 is {listed(true, '{:.0f}')} m. "
             f"{more}{_misprinted(family, 'position', 'm')}By (61) as printed the way does not even start at "
             f"0, but {listed(start)} m off. {_THIN}")
 
@@ -207,7 +218,7 @@ def _pointing():
     return (f"{_NAMED}The text has spirals into the point (0, M1/(D3 r0^2)) = (0, {aim:.2g}): a direction "
             f"{np.degrees(np.arctan(aim)):.0f} degrees off the axis, from equations for small angles. It "
             f"should be M1/(r0 (D3 r0 + Lambda)) = {M1 / (r0 * held):.2g} in the linear model; the true "
-            "direction goes nowhere near. Exact curve: where the axial velocity exceeds 0.02 m/s. As "
+            f"direction goes nowhere near. Exact curve: where the axial velocity exceeds {AXIAL:g} m/s. As "
             "printed: by (43) and (47).")
 
 
@@ -255,7 +266,7 @@ FIGURES = tuple(sorted((
          (22, "lambda3", "place", _way), (23, "e", "place", _way, "So the charge does matter to eta3. "),
          (24, "M1", "place", _way, "So M1 does matter to eta3. ")),
         lambda number, kind: {"words": {"printed": AS_PRINTED[kind]} if kind in AS_PRINTED else None,
-                              "mark_words": "tilt reaches 0.1 rad"}),
+                              "mark_words": f"tilt reaches {SMALL_ANGLE:g} rad"}),
     Figure(11, "Angular momentum across z1",
            lambda: _circle("lambda3", "The print draws the small circle of a body that hardly tilts. "
                            + _mean_pointing()),
