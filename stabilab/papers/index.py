@@ -233,12 +233,14 @@ def claims(paper: Paper, group: Sequence[Any]) -> list[dict[str, Any]]:
 
 
 def _claim(paper: Paper, item: Any) -> dict[str, Any]:
-    """What a claim says, whether it is so, what is so in words and in formulas, and the anchor of its row."""
+    """What a claim says, whether it is so, what is so in words and in formulas, what it was held against, and
+    the anchor of its row."""
     row, note = item.row, item.row.options.get("note", "")
     so, formulas = [item.correction], []
     if item.verdict in ("only-if", "wrong") and row.kind in ("holds", "solves", "equilibrium", "order"):
-        so, formulas = [", ".join(f"with {name} = {text}" for name, text in row.corrected_where.items())
-                        ], typeset(paper, row.corrected)
+        meant = ", ".join(f"with {name} = {text}" for name, text in row.corrected_where.items())
+        so = [meant.replace("**", "^")]
+        formulas = typeset(paper, row.corrected)
     elif row.kind == "number" and item.correction:  # the truth stands in the note, where the formula is wrong
         so = [item.correction if "judged_by" in row.options else f"by that formula {item.correction}", note]
     elif item.verdict == "not-checkable":
@@ -247,6 +249,7 @@ def _claim(paper: Paper, item: Any) -> dict[str, Any]:
         so = [f"only if {item.condition}", *so]
     return {"says": written(row.says), "right": item.verdict == "holds", "word": WORDS[item.verdict],
             "is": written("; ".join(filter(None, so))), "formulas": formulas,
+            "against": "; the exact motion: ".join(filter(None, (item.judged_by, item.exact_motion))),
             "link": f"audit.html#{anchor(paper.name, row.equation)}"}
 
 

@@ -86,3 +86,30 @@ def test_the_page_of_hard_cases_has_every_row_of_the_docs(folder):
     rows = [line for line in index.HARD.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
     text = (folder / "hard-cases.html").read_text(encoding="utf-8")
     assert text.count("<tr>") == len(rows) > 40 and text.count("<h2 ") == 2
+
+
+@pytest.mark.parametrize("name", catalogue.PAPERS)
+def test_every_figure_leads_to_the_cases_that_it_draws(name):
+    """A combination of a sweep to its row, with its numbers in words; figure 18 alone is of no case of the paper."""
+    cases = {path.stem: f"cases/{path.stem}.html" for path in table.cases_folder().glob("*.toml")}
+    for row in catalogue.of_paper(name):
+        links = index.cases_of(row, cases)
+        assert bool(links) != row.added, row.number
+        assert all(link["link"].split("#")[0] in cases.values() for link in links)
+    if name == "charged":
+        links = index.cases_of(catalogue.figure(21, name), cases)
+        assert len(links) == len({link["link"] for link in links}) == 7  # three families of three, one in all
+        assert links[0] == {"name": "\u03bb3 = 1.3 kg m\u00b2/s, e = 0.003 C, M1 = 4 N m (charged-sweep-1-2-1)",
+                            "link": "cases/charged-sweep.html#charged-sweep-1-2-1"}
+
+
+def test_the_sentences_on_a_figure_stand_beside_it_with_what_they_were_held_against():
+    """Of the six figures of the cavity whose wheel is completed: each has what its text says of waves or spirals."""
+    one, found = unaudited("liquid-cavity")
+    for number in (6, 7, 9, 10, 12, 13):
+        beside = index.of_figure(one, found, number)
+        assert any(re.search("waves|spirals", row["says"]) for row in beside["claims"]), number
+        assert [row["equation"] for row in beside["rows"]] == ["3", "24", "27"]
+    words = {verdict: index.of_figure(one, [SimpleNamespace(**vars(row) | {"verdict": verdict}) for row in found],
+                                      6)["claims"][0]["word"] for verdict in ("holds", "only-if", "wrong")}
+    assert words == {"holds": "right", "only-if": "only if", "wrong": "not so"}
