@@ -137,8 +137,8 @@ def _angles(family: str, more: str = ""):
     tilts = [np.hypot(*a[:, :2].T).max() for a in _state(family, "printed", "angles")]
     until = dict.fromkeys(f"{float(horizon(b)):.2f}" for b in _bodies(family))
     return (f"The print lets the tilt of psi and phi swing to {listed(tilts)} rad as if it were small. In "
-            f"truth {SMALL_ANGLE:g} rad is outgrown after {listed(until, '{}')} s (dash-dotted), psi turns back "
-            f"before pi/2, phi runs on, and theta is not r0 t. {more}{_CUT}.")
+            f"truth {SMALL_ANGLE:g} rad is outgrown after {listed(until, '{}')} s (dash-dotted), psi turns "
+            f"back before pi/2, phi runs on, and theta is not r0 t. {more}{_CUT}.")
 
 
 def _circle(family: str, more: str = ""):
