@@ -127,10 +127,11 @@ class Case(read.Case):
     @_in_doubles
     def stuck(self, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None, *,
               state: Start | None = None, span: Span | None = None, tilt: Amount | None = None,
-              frame: str = "principal") -> Stuck:
+              frame: str = "principal", workers: int | None = None) -> Stuck:
         """What the stuck thrusters do, and what helps: see `stabilab.stuck`."""
         from .answers.stuck.ask import stuck
-        return stuck(self, all_thrusters, progress, state=state, span=span, tilt=tilt, frame=frame)
+        return stuck(self, all_thrusters, progress, state=state, span=span, tilt=tilt, frame=frame,
+                     workers=workers)
 
     @_in_doubles
     def percentiles(self, samples: int = 1000, seed: int = 1, *, rate: Amount | None = None,

@@ -65,7 +65,7 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict, samples=None,
 
     def asked(item):
         with told() as tell:
-            return ask(item, all_thrusters, tell)
+            return ask(item, all_thrusters, tell, workers=workers)
     run(view, loaded, asked, units=units, out=out, json=json, csv=csv, strict=strict,
         drawn=drawn(samples, seed, workers, lambda item: item.limits is not None, True))
 

@@ -39,7 +39,7 @@ SHORTEST = 1e-18  # of a series: what is left out
 class Rows(NamedTuple):
     """States (n, 3) along their orbits: the coefficients of (2) and the sizes of their terms, the quartic,
     its discriminant and what rounding may change that by, omega_i + s and the size of its terms; all in a
-    `unit` of rate; of the reduction e."""
+    `unit` of rate; of the reduction e, and whether its orbits have a centre."""
 
     series: tuple[np.ndarray, ...]
     terms: tuple[np.ndarray, ...]
@@ -50,6 +50,7 @@ class Rows(NamedTuple):
     size: np.ndarray
     unit: float
     e: float
+    centred: bool
 
     def some(self, rows: np.ndarray | slice) -> Rows:
         """These rows of them."""
@@ -72,12 +73,13 @@ def rows_of(reduction: Reduction, states: np.ndarray) -> Rows:
     scene = p, q, kappa, p0, q0, rho, sigma, float(r.m) * unit * unit
     series = about(scene, u, v)
     terms = about(tuple(map(abs, scene)), np.abs(u), np.abs(v), 1)
-    quartic, sizes = force_quartic(series, e), force_quartic(terms, abs(e), 1)
+    centred = r.geometry.centred
+    quartic, sizes = force_quartic(series, e, centred), force_quartic(terms, abs(e), centred, 1)
     if np.any(quartic[3]) or np.any(quartic[2]):
         apart, doubt = discriminant(quartic), DOUBLE_ROOT * discriminant(sizes, 1)
     else:  # a line, whose equilibrium is a well or a barrier
         apart, doubt = quartic[1], DOUBLE_ROOT * sizes[1]
-    return Rows(series, terms, quartic, apart, doubt, rate + s, np.abs(rate) + abs(s), unit, e)
+    return Rows(series, terms, quartic, apart, doubt, rate + s, np.abs(rate) + abs(s), unit, e, centred)
 
 
 def about(scene: Sequence[float], u: np.ndarray, v: np.ndarray, sign: int = -1):
@@ -88,10 +90,10 @@ def about(scene: Sequence[float], u: np.ndarray, v: np.ndarray, sign: int = -1):
     return A * u + rho * v + m, A * a + B * b, A * pb + B * qa + sign * c, c, kappa * (qa * a + pb * b)
 
 
-def force_quartic(series: Sequence[np.ndarray], e: float, sign: int = -1):
+def force_quartic(series: Sequence[np.ndarray], e: float, centred: bool, sign: int = -1):
     """The coefficients in T of the force times (1 - e T^2)^2, lowest first; sign as of `about`."""
     f0, f1, f2, c, g = series
-    if not e:
+    if not centred:
         return f0, 2 * f1, 2 * f2 + 6 * c, 4 * g, 0.0
     return (f0, 2 * f1, 2 * (f2 + 3 * c) + sign * (2 * e * f0), 4 * g + sign * (2 * e * f1),
             e * (e * f0 + 2 * (sign * f2 + c)))
@@ -141,7 +143,7 @@ def near_arc(rows: Rows, T: np.ndarray):
     """(y, S1, S2, S3, K'' there, by how much K may be off because the force does not vanish) of the
     equilibria near T."""
     e = rows.e
-    for _ in range(STEPS if e else 1):
+    for _ in range(STEPS if rows.centred else 1):
         value, slope = polynomial(T, rows.quartic)
         T = T - value / slope
     force, slope = polynomial(T, rows.quartic)
@@ -209,7 +211,7 @@ def margins_by_arcs(reduction: Reduction) -> MarginsByArcs | None:
     parabolic = not small or (
         abs(small) < NEARLY * abs(r.kappa)
         and abs(small) * (away * away + abs(r.m * large * large)) < FAR_CENTRE * abs(large) * off * off)
-    if r.e >= 0:
+    if r.geometry.walled:
         return partial(middle_barriers, r) if parabolic else None
     if parabolic:
         return partial(highest_barriers, r, nearby_and_far)
@@ -234,7 +236,7 @@ def middle_barriers(reduction: Reduction, states: np.ndarray):
             K, clear = height(rows, arc)
             margins[barred] = -K / rows.unit / rows.unit
             doubtful[barred] = ~(clear & (arc[4] > 0) & (rows.apart > rows.doubt))
-        if all_rows.e:
+        if all_rows.centred:
             *_, c, g = all_rows.series
             off = np.abs(np.abs(g) - 2 * np.sqrt(all_rows.e) * np.abs(c))
             doubtful |= ~(off > BESIDE_PLANE * all_rows.terms[4])

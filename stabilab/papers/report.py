@@ -27,13 +27,13 @@ from ..show import manifest, style
 from ..show import precision as precision_page
 from ..show.report import html, own
 from ..show.report.html import picture
-from ..show.report.workers import Task, done
 from ..show.terminal import some, written
 from ..show.text import cost as cost_text
 from ..show.text import headline
 from ..show.text.cost import so_many
 from ..show.text.scene import PRODUCTS
 from ..show.units import SI, parameter_unit
+from ..tasks import Task, done
 from ..theories.printed.claims import MAIN
 from ..theories.theory import compare, side_by_side
 from ..version import __version__

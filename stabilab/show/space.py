@@ -112,6 +112,7 @@ LEVELS, ARC = (-0.6, 0.0, 0.6), 6
 HALF, BEYOND_SIZE = 4095, 8.0  # half of the box in numbers of a page; what is farther off is moved in
 
 Point = Sequence[float]
+Known = dict[tuple[int, float], Point | None]  # places of curves by their number and the parameter
 
 
 @dataclass(frozen=True)
@@ -416,15 +417,21 @@ def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainBranch], str]:
             for branch in result.branches], result.because
 
 
-def curves_of(result: Equilibria | None, box: Box, coarse: int = PLACES[0],
-              fine: int = PLACES[1]) -> list[tuple[str, list[Point]]]:
+def curves_of(result: Equilibria | None, box: Box, coarse: int = PLACES[0], fine: int = PLACES[1],
+              known: Known | None = None) -> list[tuple[str, list[Point]]]:
     """(words, places) of the pieces of the curves of equilibria that come into the box, looked for at
-    `coarse` places of each piece and drawn through `fine`."""
+    `coarse` places of each piece and drawn through `fine`. known: the places of these curves that were formed
+    before, to which new ones are added: a box that grows keeps most of them."""
     out: list[tuple[str, list[Point]]] = []
-    for curve in result.curves if result is not None else ():
+    known = {} if known is None else known
+    for number, curve in enumerate(result.curves if result is not None else ()):
+        def place(t: float, number: int = number, curve: EquilibriumCurve = curve) -> Point | None:
+            if (number, t) not in known:
+                known[number, t] = _place(curve, t)
+            return known[number, t]
         for segment in curve.segments:
-            for low, high in _inside(curve, spread(*segment.t, coarse), box):
-                places = [_place(curve, low + (high - low) * n / fine) for n in range(fine + 1)]
+            for low, high in _inside(place, spread(*segment.t, coarse), box):
+                places = [place(low + (high - low) * n / fine) for n in range(fine + 1)]
                 out.append((style.EQUILIBRIA[style.kind_of(segment)],
                             [at for at in places if at is not None]))
     return [(text, places) for text, places in out if any(map(box.holds, places))]
@@ -439,9 +446,9 @@ def _place(curve: EquilibriumCurve, t: float) -> Point | None:
         return None
 
 
-def _inside(curve: EquilibriumCurve, ts: list[float], box: Box) -> list[tuple[float, float]]:
+def _inside(place: Callable[[float], Point | None], ts: list[float], box: Box) -> list[tuple[float, float]]:
     """The runs of parameters whose places are in or near the box, each one step longer."""
-    nearby = [at is not None and box.holds(at, 1.05) for at in (_place(curve, t) for t in ts)]
+    nearby = [at is not None and box.holds(at, 1.05) for at in map(place, ts)]
     nearby = [nearby[n] or any(nearby[max(0, n - 1):n + 2]) for n in range(len(ts))]
     runs, first = [], None
     for n, inside in enumerate([*nearby, False]):

@@ -108,7 +108,7 @@ EXPRESSIONS = {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "S",
 # built.
 ALLOWED = {("physics/to_numpy.py", "lambdify"), ("theories/cavity.py", "lambdify")}
 # between the processes of one report, in a folder that the first has just made
-OWN_OBJECTS = {("show/report/workers.py", "pickle")}
+OWN_OBJECTS = {("tasks.py", "pickle")}
 
 
 def called(tree):

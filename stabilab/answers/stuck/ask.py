@@ -13,6 +13,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, TypeAlias, TypeGuard
 
 import numpy as np
@@ -28,6 +30,7 @@ from ...numbers.vectors import CYCLE, Exact3, Number, Triple, dot
 from ...orbit.result import Fate
 from ...physics.scene import Scene, torque_axis
 from ...reasons import Sentence, as_reason
+from ...tasks import Task, done
 from ..at_equilibrium import of_gyrostat
 from ..caveats import STEADY, caveats_of
 from ..tilt import Spread, Tilt
@@ -55,6 +58,7 @@ WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none
 Duty: TypeAlias = tuple[Number, ...]  # the share of the time that each fires
 Chosen: TypeAlias = tuple[tuple[str, Exact3], ...]  # thrusters by name, and the torque of each
 MAX_HELPERS = 12  # helpers that are listed
+MANY_ROWS = 10  # so many repay the start of another process
 ROUGH = 1e-6  # of the arms, and of shares: far more than what rounding does to a pair in doubles
 TRIED = 6  # thrusters, and pairs, whose times are compared: those that leave the least torque
 SHARES = (Fraction(1), Fraction(3, 4), Fraction(1, 2), Fraction(1, 4))  # of the duty that leaves the least
@@ -297,7 +301,7 @@ def _slower(scenario: Scenario, torque: Sequence[Fraction], visited: Outcome, ru
 # --- The question: a thruster is stuck open, what becomes of the spacecraft, how soon, and what helps?
 def stuck(case: Given, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None, *,
           state: Start | None = None, span: Span | None = None, tilt: Amount | None = None,
-          frame: str = "principal") -> Stuck:
+          frame: str = "principal", workers: int | None = None) -> Stuck:
     """What the stuck thrusters of a case do: fate, axis, time to the limit, margins, wheels and thrusters
     that help.
 
@@ -306,25 +310,32 @@ def stuck(case: Given, all_thrusters: bool = False, progress: Callable[[str], An
     turns the body; where they are several, a row for each alone follows. all_thrusters: a row for each
     thruster alone instead, stuck or not, the one that reaches the limit first in front. progress: called with
     words before every row. tilt: half-angle of the cone of torques, rad or text with a unit; without it what
-    the thrusters state. Raises InputError for a case without a motion or without a thruster that could be
+    the thrusters state. workers: processes that share the rows, None for one a core where they are many;
+    the answer is the same. Raises InputError for a case without a motion or without a thruster that could be
     stuck, and for other effects than wheel and torque.
     """
     case = as_case(case, state, span, frame)
     if all_thrusters:
         case = each_firing(case)
     scenario, angle = scenario_of(case), None if tilt is None else angle_of(tilt)
-    rows = []
-    for chosen in _chosen(case, scenario, all_thrusters):
-        if progress:
-            names = " and ".join(thruster.name for thruster in chosen)
-            progress(f"{case.name}: {names or 'the torque of the case'}")
-        rows.append(_row(scenario, chosen, angle))
+    tasks = [Task(f"{case.name}: {' and '.join(t.name for t in chosen) or 'the torque of the case'}",
+                  "answers.stuck.ask:row_of", (case, tuple(map(case.thrusters.index, chosen)), angle))
+             for chosen in _chosen(case, scenario, all_thrusters)]
+    if workers is None and len(tasks) < MANY_ROWS:
+        workers = 1
+    with TemporaryDirectory() as folder:
+        rows = done(tasks, Path(folder), progress or (lambda label: None), workers)
     if all_thrusters:  # the limit is reached soon; what spins up later, or is not known; never
         rows.sort(key=lambda row: (row.time_to_limit[0] if row.time_to_limit else math.inf,
                                    {"spin-up": 0, "undecided": 1}.get(row.fate, 2)))
     principal = Principal(floats(scenario.axes.moments),
                           tuple(tuple(float(v) + 0.0 for v in axis) for axis in scenario.axes.axes))
     return Stuck(case.name, tuple(rows), principal, all_thrusters)
+
+
+def row_of(case: Case, firing: Sequence[int], angle: float | None) -> Row:
+    """The row of the thrusters of a case with these numbers; angle: as of `stuck`, rad."""
+    return _row(scenario_of(case), tuple(case.thrusters[n] for n in firing), angle)
 
 
 def each_firing(case: Case) -> Case:

@@ -240,8 +240,9 @@ class Session:
                 bare, box, plain=PLAIN if moving else None, reach=reach))
             self._kept["reach"], text = (None, far), capital(text)
         names = [component.replace("omega", "ω") for component in case.scene.components]
+        known = self._once("places", (case.scene, at_rest is None), dict)
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
-                            lambda: space.curves_of(at_rest, box, *POINTS[moving]))
+                            lambda: space.curves_of(at_rest, box, *POINTS[moving], known))
         drawn = space.space(names, self.units.rates, box, branches, nearby, marks, curves, text,
                       " without the tilt" * ghost, limit)
         if ghost:

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 from ...errors import StabilabError
 from ...orbit.separatrix.branches import separatrix
+from ...tasks import Task, done
 from .. import surface
 from ..text import headline
 from ..text.scene import groups
 from . import html, one_case
-from .workers import Task, done
 
 if TYPE_CHECKING:
     from ...case.read import Case

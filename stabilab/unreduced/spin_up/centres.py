@@ -69,6 +69,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
@@ -86,7 +87,7 @@ def packed(j: int, k: int, a: float, b: float):
     return j * _J + k * _K + a * _A + b
 
 
-@dataclass(frozen=True)
+@dataclass(slots=True, eq=False)  # thousands are made for each scene
 class Terms:
     """keys: (n,) integers, no two alike; c: (n,) coefficients; m: (n,) what the sizes of all that was added
     up in c come to."""
@@ -151,7 +152,8 @@ def terms_of(table: dict) -> Terms:
 
 def joined(parts: Sequence[Terms]) -> Terms:
     """The sum of sums of terms, like keys not yet added up."""
-    return Terms(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("keys", "c", "m")))
+    return Terms(np.concatenate([part.keys for part in parts]), np.concatenate([part.c for part in parts]),
+                 np.concatenate([part.m for part in parts]))
 
 
 def gathered(*parts: Terms) -> Terms:
@@ -160,9 +162,11 @@ def gathered(*parts: Terms) -> Terms:
     if not parts:
         return terms_of({})
     full = joined(parts)
-    order = np.argsort(full.keys, kind="stable")
+    order = full.keys.argsort(kind="stable")
     keys = full.keys[order]
-    first = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
+    new = np.ones(len(keys), bool)
+    np.not_equal(keys[1:], keys[:-1], out=new[1:])
+    first = new.nonzero()[0]
     return Terms(keys[first], np.add.reduceat(full.c[order], first), np.add.reduceat(full.m[order], first))
 
 
@@ -232,19 +236,29 @@ class Corrected:
     rate: Terms
 
 
-def corrected(algebra: Algebra, rate: Terms, order: int) -> Corrected:
-    """Everything oscillating up to x^-order taken out of a rate, which is real: its terms come with their
-    conjugates, so that half of them need be followed."""
-    parts: list[Terms] = []
-    rate = rate.half()
-    while True:
-        levels = algebra.levels(rate)
-        oscillating = (rate.apart != 0) & (levels <= 4 * order)
-        if not oscillating.any():
-            return Corrected(gathered(*parts).whole(), rate.whole())
-        now = oscillating & (levels == levels[oscillating].min())
-        parts.append(algebra.removed(rate[now]))
-        rate = gathered(rate[~now], algebra.rest_of_rate(parts[-1]).real())
+class Elimination:
+    """What oscillates taken out of a rate, which is real: its terms come with their conjugates, so that half
+    of them need be followed. A higher order goes on where a lower one has ended."""
+
+    def __init__(self, algebra: Algebra, rate: Terms):
+        self.algebra = algebra
+        # order, what was added, what is left; replaced as a whole, for threads may share it
+        self.begun = self.reached = -1, tuple[Terms, ...](), rate.half()
+
+    def to(self, order: int) -> Corrected:
+        """Everything oscillating up to x^-order."""
+        reached = self.reached
+        _, parts, rate = reached if reached[0] <= order else self.begun
+        while True:
+            levels = self.algebra.levels(rate)
+            oscillating = (rate.apart != 0) & (levels <= 4 * order)
+            if not oscillating.any():
+                break
+            now = oscillating & (levels == levels[oscillating].min())
+            parts = *parts, self.algebra.removed(rate[now])
+            rate = gathered(rate[~now], self.algebra.rest_of_rate(parts[-1]).real())
+        self.reached = order, parts, rate
+        return Corrected(gathered(*parts).whole(), rate.whole())
 
 
 # --- The fixed and the moving centre
@@ -269,20 +283,28 @@ class FixedCentre:
 
     def energy(self, order: int) -> Corrected:
         """D1 X^2/2, corrected; the drive M1 X + m* is left out of its rate."""
-        start = terms_of(self.swing).moved(packed(0, 0, -4, 0))
-        result = corrected(self.algebra, start, order)
+        result = self._energy.to(order)
         return Corrected(result.added, result.rate[result.rate.keys != packed(0, 0, 0, 0)])
+
+    @cached_property
+    def _energy(self) -> Elimination:
+        return Elimination(self.algebra, terms_of(self.swing).moved(packed(0, 0, -4, 0)))
 
     def amplitude(self, order: int) -> Corrected:
         """(1 + m*/(M1 X)) |zeta|^2, corrected from |zeta|^2 + R/(om X) on."""
+        first, elimination = self._amplitude
+        result = elimination.to(order)
+        return Corrected(gathered(first, result.added), result.rate)
+
+    @cached_property
+    def _amplitude(self) -> tuple[Terms, Elimination]:
         f, algebra = self.form, self.algebra
         first = terms_of(_present({(2, 0, 4, 0): 0.5 * f.h / f.om, (0, 2, 4, 0): 0.5 * f.h / f.om,
                                    (1, 0, 4, 0): 1j * f.mu.conjugate() / f.om,
                                    (0, 1, 4, 0): -1j * f.mu / f.om}))
         weight = terms_of(_present({(1, 1, 4, 0): f.drag / f.M1}))
         rate = product(first.moved(packed(0, 0, 4, 0)).times(-1), algebra.x_rate)
-        result = corrected(algebra, gathered(rate, algebra.rest_of_rate(weight)), order)
-        return Corrected(gathered(first, result.added), result.rate)
+        return first, Elimination(algebra, gathered(rate, algebra.rest_of_rate(weight)))
 
     def transverse(self, A: float, z: float):
         """((low, high), (low, high)) of omega2 and omega3 of the form while |zeta| <= A."""
@@ -354,14 +376,23 @@ class MovingCentre:
 
     def energy(self, order: int) -> Corrected:
         """D1 int sqrt(p q) dx, corrected; the drive sqrt(p q) G0 is left out of its rate."""
+        return self._energy.to(order)
+
+    @cached_property
+    def _energy(self) -> Elimination:
         a, b = self.algebra.turn
         start = {(j, k, m + a, n + b): c * self.turn_size for (j, k, m, n),
                  c in (self.swing | self.pull).items()}
-        return corrected(self.algebra, terms_of(start), order)
+        return Elimination(self.algebra, terms_of(start))
 
     def amplitude(self, order: int) -> Corrected:
-        """G0/M1 |eta|^2, corrected. D1 M1 times its rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each
-        bracket's products of oscillating factors written out, without the mean part."""
+        """G0/M1 |eta|^2, corrected."""
+        return self._amplitude.to(order)
+
+    @cached_property
+    def _amplitude(self) -> Elimination:
+        """D1 M1 times the rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each bracket's products of
+        oscillating factors written out, without the mean part."""
         G0, swing, pull, k, r, f = map(terms_of, (self.G0, self.swing, self.pull, self.k, self.r, self.f))
         k, f = (Terms(part.keys, part.c.conjugate(), part.m) for part in (k, f))
         # g Im eta^2 Re eta^2 = (g/2) Im eta^4
@@ -372,7 +403,7 @@ class MovingCentre:
         slope = self.algebra.slope(G0)
         around = product(product(gathered(swing, pull), slope), terms_of({(1, 1, 0, 0): 1.0}))
         rate = gathered(product(G0.times(2.0), gathered(*inner)), around).times(1 / (self.M1 * self.D1))
-        return corrected(self.algebra, rate, order)
+        return Elimination(self.algebra, rate)
 
     def transverse(self, A, z):
         """((low, high), (low, high)) of omega2 and omega3 of the form for x >= z, |eta| <= A: w* and rho are

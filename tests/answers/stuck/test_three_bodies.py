@@ -35,6 +35,12 @@ def test_all_thrusters_are_ranked_by_time_each_alone(stabilab):
         assert row["time_to_limit"][0] == pytest.approx(t, rel=1e-8)
 
 
+@pytest.mark.slow
+def test_rows_are_the_same_by_two_processes():
+    case = stabilab.load(BODIES["geostationary-22n"])
+    assert stabilab.stuck(case, True, workers=2) == stabilab.stuck(case, True, workers=1)
+
+
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("ending", ["png", "svg"])
 def test_the_picture_is_written_whole_and_the_same_twice(stabilab, tmp_path, ending):

@@ -9,6 +9,7 @@ from stabilab import load, motion, separatrix
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.orbit.phase_plane import phase_plane
+from stabilab.show import space
 from stabilab.show.explore.pictures import plane_of, unframed
 from stabilab.show.explore.session import FOLLOWED, Session, Stopped
 from stabilab.show.text.headline import headline
@@ -202,6 +203,19 @@ def test_a_curve_of_equilibria_is_told_by_a_state_on_each_piece():
         w1, w2, w3 = (math.radians(float(v))
                       for v in re.search(r"such as \((.*)\) deg/s", where)[1].split(", "))
         assert w3 == 0 and (0.8 + (12 - 9) * w1) * w2 == pytest.approx(-0.02, rel=1e-3)
+
+
+def test_the_places_of_a_curve_are_formed_once_while_the_box_grows_with_the_start(monkeypatch):
+    """Counted; the places drawn are those of a session that begins with the box as it is in the end."""
+    session, formed, form = Session(load(MOVING)), [], space._place
+    own = float(session.about()["groups"][2]["controls"][0]["value"])
+    box = ask(session)[0]["space"]["box"]
+    monkeypatch.setattr(space, "_place", lambda curve, t: formed.append((curve.name, t)) or form(curve, t))
+    for n in range(3, 9):
+        last = {"start": [repr(own * n), None, None], "moving": True}
+        told, numbers = ask(session, box=box, **last)
+    assert told["space"]["box"] != box and len(formed) == len(set(formed)) > 40
+    assert ask(Session(load(MOVING)), box=told["space"]["box"], **last)[0]["space"] == told["space"]
 
 
 @pytest.mark.parametrize("moving", [False, True])

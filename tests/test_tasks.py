@@ -1,9 +1,9 @@
 """Tasks that several processes share: each is done once, in whatever process, and what fails is told here."""
 import pytest
 
+from stabilab import tasks as workers
 from stabilab.errors import InputError
-from stabilab.show.report import workers
-from stabilab.show.report.workers import Task
+from stabilab.tasks import Task
 
 
 def _tasks(number):

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
-from ...errors import StabilabError
-from ...interrupt import end_with_parent
-from ...processes import cores, helpers
+from .errors import StabilabError
+from .interrupt import end_with_parent
+from .processes import cores, helpers
 
-PLACE = ".tasks"  # folder inside that of the report, removed at the end
+PLACE = ".tasks"  # folder inside that of the results, removed at the end
 MAX_WORKERS = 4          # helpers need memory too: some 400 MB each
 
 
