@@ -98,7 +98,8 @@ VARIED = {  # of each form, what is varied that stays certain
     "top": "motion.angular_velocity[3]"}
 # commands whose answer is a file: pages and the explorer have tests of their own below
 DRAWN = {"plot": "pictures (tests/show/test_plots.py)", "surface": "meshes", "report": "the page below",
-         "explore": "the session below", "verify": "certificates"}
+         "explore": "the session below", "verify": "certificates",
+         "export": "a body for others (tests/case/test_export.py)"}
 
 
 def keys() -> list[tuple]:
