@@ -156,7 +156,7 @@ def test_the_dual_spin_craft_has_the_closed_forms_of_a_symmetric_gyrostat():
     momentum = hypot(A * across, h + C * along)
     wanted = (2 * pi * A / (h + (C - A) * along), 2 * pi * A / momentum, degrees(atan2(A * across, h + C * along)))
     found = findings(source("dual-spin"))
-    assert [float(one.ours) for one in found] == pytest.approx(wanted, rel=1e-11)
+    assert [float(one.ours) for one in found] == pytest.approx(wanted, rel=1e-10)  # the digits that are known
     assert [one.theirs for one in found] == [f"{value:.6g}" for value in wanted]
 
 
