@@ -271,12 +271,14 @@ def text_of_case(case: Case) -> str:
     combination of a [sweep], of a case with another motion and of a scene the numbers alone."""
     if not case.text:
         return text_of(_data_of(case))
-    own = {"swept": case.swept, "caveats": case.caveats}  # what a question adds to a case is not in its file
-    if not case.variant and case == replace(read_text(case.path, case.text), **own):
+    def is_read(found: Case) -> bool:
+        """Whether it is the case, but for what a question adds to one."""
+        return case == replace(found, swept=case.swept, caveats=case.caveats)
+    if not case.variant and is_read(read_text(case.path, case.text)):
         return case.text
     top = Table((), *parsed(case.path, case.text))
     data = dict(combinations(top)).get(case.variant, top.data)
-    if case == replace(_built(case.path, case.text, data, top.faults, case.variant), **own):
+    if is_read(_built(case.path, case.text, data, top.faults, case.variant)):
         return text_of(data)
     return text_of(plain({"title": case.title, "source": case.source}) | _data_of(case))
 
