@@ -136,7 +136,7 @@ class Percentiles(Compared, Answer):
     confidence: float = CONFIDENCE
 
 
-def percentiles(case: Given, samples: int = 1000, seed: int = 1, *, rate: Amount | None = None,
+def percentiles(case: Given | Burning, samples: int = 1000, seed: int = 1, *, rate: Amount | None = None,
                 component: str | None = None, energy: Amount | None = None, tilt: str | None = None,
                 until: Amount | None = None, below: Amount | None = None, nutation: str | None = None,
                 nutation_below: str | None = None, largest: bool = True, workers: int | None = None,

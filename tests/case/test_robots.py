@@ -247,7 +247,9 @@ SDF = "<link name='{}'><inertial><mass>1</mass><inertia><ixx>3</ixx><iyy>2</iyy>
     ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<pose>1 2 3</pose><inertial>") + "</model></sdf>", 2, "six numbers"),
     ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<pose relative_to='q'>1 2 3 0 0 0</pose><inertial>")
      + "</model></sdf>", 2, "no frame q"),
-    ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<inertial auto='true'>") + "</model></sdf>", 2, "auto")])
+    ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<inertial auto='true'>") + "</model></sdf>", 2, "auto"),
+    ("<sdf><model>" + SDF.format("a") + "\n" + SDF.format("a") + "</model></sdf>", 2, "a second link a, the first is in line 1"),
+    ("<robot>" + LINK.format("a") + "\n" + LINK.format("a") + "</robot>", 2, "a second link a, the first is in line 1")])
 def test_a_fault_has_its_line_and_what_to_do(tmp_path, stabilab, text, line, words):
     (tmp_path / "own.txt").write_text(text)
     code, out, err = stabilab("import", tmp_path / "own.txt")

@@ -14,7 +14,18 @@ import numpy as np
 from ...errors import printable
 from .imported import Craft
 from .parts import of_quaternion, turn, turn_of_radians
-from .rigid_pieces import Frame, Piece, combined, piece, tensor_of, unread
+from .rigid_pieces import (
+    Frame,
+    Piece,
+    by_name,
+    combined,
+    free,
+    judge_end,
+    judge_inertials,
+    piece,
+    tensor_of,
+    unread,
+)
 from .xml_tree import Element, fractions, tree
 
 MOVING = ("revolute", "revolute2", "continuous", "prismatic", "ball", "universal", "screw", "gearbox")
@@ -34,12 +45,10 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     for nested in model.all("model"):
         raise nested.fault(f"models inside a model are not read: write the links of {nested.name} into "
                            f"{model.name}")
-    links = {link.name: link for link in model.all("link")}
-    if not any(link.one("inertial") for link in links.values()):
-        raise model.fault("no link has an <inertial>, and without mass and moments no motion can be found: "
-                          "add <inertial><mass>...</mass><inertia><ixx>...</ixx> ... </inertia></inertial> "
-                          "to a link"
-                          + _included(model))
+    links = by_name(model.all("link"), "link")
+    judge_inertials(model, "link", any(link.one("inertial") for link in links.values()),
+                    "<inertial><mass>...</mass><inertia><ixx>...</ixx> ... </inertia></inertial>",
+                    _included(model))
     frames = _Frames(model)
     pieces = [_piece(link, frames.of(name, link), craft) for name, link in links.items()]
     joints = [*model.all("joint")]
@@ -153,14 +162,11 @@ def _judge_tied(model: Element, links: dict[str, Element], joints: list[Element]
         ends = []
         for tag in ("parent", "child"):
             name = _text(joint, tag, "")
-            if name not in links and not (tag == "parent" and name == "world"):
-                raise joint.fault(f"joint {joint.name}: no link {name or 'is named'}: expected one of the "
-                                  f"links{more}", tag)
+            judge_end(joint, name, [*links, *["world"] * (tag == "parent")], tag, more)
             ends.append(name)
         if ends[0] in groups:
             union = groups[ends[0]] | groups[ends[1]]
             groups |= dict.fromkeys(union, union)
     apart = [name for name in links if name not in groups[next(iter(links))]]
     if apart and body is None:
-        raise links[apart[0]].fault(f"no joint ties link {apart[0]} to link {next(iter(links))}: they are no "
-                                    "rigid body; --body NAME takes one link alone")
+        raise free(links[apart[0]], f"no joint ties link {apart[0]} to link {next(iter(links))}", "link")

@@ -1,7 +1,7 @@
 """Bodies of a robot description as one rigid body: what is common to URDF, SDFormat and MJCF."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -111,6 +111,37 @@ def combined(craft: Craft, pieces: Sequence[Piece], root: Frame, kind: str, lock
     if empty and body is None:
         craft.said.append(f"without mass, and left out: {_list(empty)}")
     return craft
+
+
+# --- What every description may have wrong
+def by_name(elements: Iterable[Element], kind: str) -> dict[str, Element]:
+    """The elements by their names, which differ; a fault where two share one."""
+    result: dict[str, Element] = {}
+    for element in elements:
+        if element.name in result:
+            raise element.fault(f"a second {kind} {element.name}, the first is in line "
+                                f"{result[element.name].line}: names differ", "name")
+        result[element.name] = element
+    return result
+
+
+def judge_inertials(parent: Element, kind: str, present: bool, example: str, more: str = "") -> None:
+    """A fault where no link or body has an inertial. example: of one; more: what else can be done."""
+    if not present:
+        raise parent.fault(f"no {kind} has an <inertial>, and without mass and moments no motion can be "
+                           f"found: add {example} to a {kind}{more}")
+
+
+def judge_end(joint: Element, name: str, links: Iterable[str], key: str, more: str = "") -> None:
+    """A fault where a joint names no link."""
+    if name not in links:
+        raise joint.fault(f"joint {joint.name}: no link {name or 'is named'}: expected one of the "
+                          f"links{more}", key)
+
+
+def free(element: Element, words: str, kind: str) -> InputError:
+    """That parts move freely of each other, in words."""
+    return element.fault(f"{words}: they are no rigid body; --body NAME takes one {kind} alone")
 
 
 def _names(pieces: Sequence[Piece]) -> str:
