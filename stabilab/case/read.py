@@ -271,11 +271,14 @@ def text_of_case(case: Case) -> str:
     combination of a [sweep], of a case with another motion and of a scene the numbers alone."""
     if not case.text:
         return text_of(_data_of(case))
-    if not case.variant and case == replace(read_text(case.path, case.text), swept=case.swept):
+    def is_read(found: Case) -> bool:
+        """Whether it is the case, but for what a question adds to one."""
+        return case == replace(found, swept=case.swept, caveats=case.caveats)
+    if not case.variant and is_read(read_text(case.path, case.text)):
         return case.text
     top = Table((), *parsed(case.path, case.text))
     data = dict(combinations(top)).get(case.variant, top.data)
-    if case == replace(_built(case.path, case.text, data, top.faults, case.variant), swept=case.swept):
+    if is_read(_built(case.path, case.text, data, top.faults, case.variant)):
         return text_of(data)
     return text_of(plain({"title": case.title, "source": case.source}) | _data_of(case))
 
@@ -309,9 +312,9 @@ class Burning:
         return segments([thruster.burn for thruster in self.craft.thrusters], until)
 
 
-def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
-    """Whether a thruster of this case file has a start, stop, pulses or propellant."""
-    *_, data, faults = _read(path)
+def fires_on_schedule(given: str | os.PathLike[str] | Mapping[str, Any]) -> bool:
+    """Whether a thruster of this case file, text or dict has a start, stop, pulses or propellant."""
+    *_, data, faults = _stated(given, "load_burning")
     return bool(_scheduled(data, faults))
 
 
@@ -320,9 +323,14 @@ def load_burning(given: Any) -> Burning:
     (start, stop, period, duty, on_time, profile, propellant, mass_flow), for `burn`. Where none does, the
     stuck ones fire from 0 on. Raises CaseError as `load` does."""
     path, text, data, faults = _stated(given, "load_burning")
-    if not _scheduled(data, faults) and isinstance(declared := data.get("thrusters"), list):
-        data = data | {"thrusters": [_from_start(item) for item in declared]}
-    return Burning(_built(path, text, data, faults, burning=True))
+    return Burning(_built(path, text, _firing(data, faults), faults, burning=True))
+
+
+def _firing(data: dict, faults: Faults) -> dict:
+    """Where no thruster has a schedule, the stuck ones fire from 0 on."""
+    declared = data.get("thrusters")
+    return data if _scheduled(data, faults) or not isinstance(declared, list) else (
+        data | {"thrusters": [_from_start(item) for item in declared]})
 
 
 def _from_start(thruster: Any) -> Any:
@@ -431,11 +439,13 @@ def read_text(path: str | Path, text: str) -> Case:
     return _built(path := os.fspath(path), text, *parsed(path, text))
 
 
-def with_data(path: str, text: str, data: dict) -> Case:
+def with_data(path: str, text: str, data: dict, burning: bool = False) -> Case:
     """The case in TOML data that is the text's but for numbers that were put in; its faults are
-    reported as of the text. Numbers that were put in are certain, so that correlations are left out."""
+    reported as of the text. Numbers that were put in are certain, so that correlations are left out.
+    burning: as of `load_burning`, the craft alone."""
     data = {key: value for key, value in data.items() if key != "correlations"}
-    return _built(path, text, data, Faults(key_lines(text)))
+    faults = Faults(key_lines(text))
+    return _built(path, text, _firing(data, faults) if burning else data, faults, burning=burning)
 
 
 def _read(path: str | os.PathLike[str]):

@@ -626,13 +626,14 @@ def _percentiles_words(result):
     parts = [f"{word} {100 * of.fraction:.4g} %" for shares in (result.outcomes, result.reached)
              for word, of in shares.items()]
     parts += [f"{name} " + ", ".join(f"{q.percent} % {number(q.high, 6)}" for q in item.quantiles)
-              for name, item in (("time", result.time), ("largest", result.largest)) if item is not None]
+              for name, item in (("time", result.time), ("largest", result.largest),
+                                 ("closing", result.closing)) if item is not None]
     return f"{result.name}, {some(result.number, 'draw')}: {'; '.join(parts)}"
 
 
 def _percentiles(result):
     values, percents = {}, None
-    for name, item in (("time", result.time), ("largest", result.largest)):
+    for name, item in (("time", result.time), ("largest", result.largest), ("closing", result.closing)):
         if item is None:
             continue
         percents = [q.percent for q in item.quantiles]

@@ -15,7 +15,7 @@ import pytest
 import stabilab as package
 from stabilab.case.body import THRUSTER
 from stabilab.case.read import load
-from stabilab.case.table import UNCERTAIN
+from stabilab.case.table import uncertain_keys
 from stabilab.case.write import text_of
 from stabilab.cli import whole
 from stabilab.errors import InputError
@@ -98,14 +98,15 @@ VARIED = {  # of each form, what is varied that stays certain
     "top": "motion.angular_velocity[3]"}
 # commands whose answer is a file: pages and the explorer have tests of their own below
 DRAWN = {"plot": "pictures (tests/show/test_plots.py)", "surface": "meshes", "report": "the page below",
-         "explore": "the session below", "verify": "certificates"}
+         "explore": "the session below", "verify": "certificates",
+         "export": "a body for others (tests/case/test_export.py)"}
 
 
 def keys() -> list[tuple]:
     """(form, path) of every number that may be uncertain: those of the program's set, and those of a
     thruster."""
     found = []
-    for path in sorted(UNCERTAIN):
+    for path in sorted(uncertain_keys()):
         forms = [name for name, data in FORMS.items() if place(data, path) is not None]
         assert forms or path in {one for _, one in of_others()}, (
             f"{path}: no case of this test has the key: add it to FORMS or OTHERS")
@@ -116,7 +117,7 @@ def keys() -> list[tuple]:
 
 def of_others() -> list[tuple]:
     """(form, path) of the keys of effects that are looked at alone."""
-    return [(name, path) for path in sorted(UNCERTAIN) for name, data in OTHERS.items()
+    return [(name, path) for path in sorted(uncertain_keys()) for name, data in OTHERS.items()
             if place(data, path) is not None and path != ("body", "inertia") and path[0] != "motion"]
 
 

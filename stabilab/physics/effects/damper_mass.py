@@ -49,6 +49,7 @@ class DamperMass(Effect):
     takes: ClassVar[str] = "inside"
     agent: ClassVar[str] = "the damper"
     keys: ClassVar[tuple[str, ...]] = ("mass", "place", "line", "stiffness", "coefficient")
+    certain: ClassVar[tuple[str, ...]] = ("line",)
     symbols: ClassVar[tuple[str, ...]] = ("mud", "ks", "cs", "rd1", "rd2", "rd3", "nd1", "nd2", "nd3")
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False

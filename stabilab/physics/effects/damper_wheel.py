@@ -43,6 +43,7 @@ class DamperWheel(Effect):
     takes: ClassVar[str] = "inside"
     agent: ClassVar[str] = "the damper"
     keys: ClassVar[tuple[str, ...]] = ("inertia", "coefficient", "axis")
+    certain: ClassVar[tuple[str, ...]] = ("axis",)
     symbols: ClassVar[tuple[str, ...]] = ("Jw", "cw", "aw1", "aw2", "aw3")
     small: ClassVar[bool] = True
     displaced: ClassVar[bool] = False  # whether permanent rotations move it from where it is without them

@@ -224,7 +224,7 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
         period = None if motion.period is None else motion.period * item
         if (at := limit_time(motion)) is not None:
             low: Any = motion.first and float(motion.first[1].low)
-            reached = [low * item, at * item] if broad(low, at) else [at * item]
+            reached = [low * item, at * item] if broad(low, at) else at * item
     return {"times": bag.add("float32", [t * item for t in times]),
             "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
             "extremes": extremes, "period": period, "reached": reached,

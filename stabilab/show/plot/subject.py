@@ -15,6 +15,7 @@ from ...answers.stuck.ask import stuck
 from ...answers.stuck.margins import Row
 from ...case.read import Case, load
 from ...errors import InputError, printable
+from ...maps.percentiles import Percentiles
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
 from ...physics.coefficients import effective
@@ -39,7 +40,8 @@ class Subject:
     without a motion; blocks: the rest of the state by name; span: (from, to) or None; heading: for titles,
     may be empty; case: where all this stands, or None; neighbours: how many motions a section shows beside
     it, None for the usual number; known: its motion, where that is worked out already; asked: the span that
-    its pictures show, None for what is worth seeing."""
+    its pictures show, None for what is worth seeing; draws: percentiles over its uncertain numbers, where
+    they are found already."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -50,6 +52,7 @@ class Subject:
     neighbours: int | None = None
     known: Motion | None = field(default=None, repr=False)
     asked: tuple[float, ...] | None = None
+    draws: Percentiles | None = field(default=None, repr=False)
 
     @property
     def physical(self) -> bool:

@@ -19,6 +19,7 @@ from ...answers.motion import Needs, motion
 from ...answers.uncertain.fate import uncertain
 from ...answers.when import with_tilt
 from ...errors import Kind, StabilabError, without
+from ...maps.percentiles import of_case_drawn
 from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
@@ -26,12 +27,14 @@ from .. import certification, frame, limiting, style
 from ..picture_kinds import KINDS
 from ..plot import subject as subjects
 from ..plot import to_file
+from ..plot.histogram import SEED, is_known
 from ..plot.in_space import space_of
 from ..plot.over_time import file_axes
 from ..plot.path import along
 from ..plot.subject import subject
 from ..space import data
 from ..terminal import printed, some
+from ..text import percentiles
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
 from ..text.motion import constants, margins, shown, state
@@ -40,6 +43,8 @@ from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, 
 from . import formulas, html
 from .html import picture
 from .tables import equilibrium_table, sensitivity, tiles
+
+DRAWS = 200  # of the uncertain numbers of a page: a second or two
 
 
 # --- Pictures
@@ -69,6 +74,7 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
     # a sketch of the body shows more than its moments: effects, or axes that the file has not
     acted_on = (bodily and bodily.effects) or case.thrusters or case.frame and not case.frame.as_given
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not acted_on,
+              "histogram": item.draws is None or not is_known(item.draws),
               "sphere": "phase" in offered and not subjects.free(item), "state": subjects.rates_alone(item)}
     exact_alone = models_of(item.scene) == ("exact",)
     for kind, page in SHOWN.items():
@@ -117,6 +123,9 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     if moved is not None:
         moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
         item = replace(item, known=moved)
+        if deep and case.uncertain:
+            item = replace(item, draws=_tried(absent, "Percentiles", lambda: of_case_drawn(
+                case, DRAWS, SEED, 1, case.limits is not None, True)))
     if case.state is None:
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
     request = ("equilibria", "fate") if case.state else ("equilibria",)
@@ -150,11 +159,14 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
                                                     "deg" if units.scaled else units.name, result)) or [])
         missing: dict[str, list[str]] = {}  # titles by their reason
         for kind, about in SHOWN.items():
+            if kind == "histogram" and not case.uncertain:  # a case without such numbers lacks nothing
+                continue
             missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(item, result, units))
     page["uncertain"] = uncertain_text(box, units)
+    page["percentiles"] = "" if item.draws is None else percentiles.text(item.draws, units)
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))
     return page | {"absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
