@@ -118,7 +118,8 @@ class Case:
     to read answers (empty where the file does not say); swept: (key, value as written) of every key of
     [sweep].
     caveats: what the file itself says that limits every answer. observed: whether the start is stated by
-    periods, or by spin and nutation, from which the state was found. correlations: of uncertain numbers.
+    periods, or by spin and nutation or lean, from which the state was found. correlations: of uncertain
+    numbers.
     """
 
     path: str = field(compare=False)
@@ -717,7 +718,8 @@ def _judge_blocks(motion: _Motion, scene):
     if "wheel" in supplied and (text := next((said for item in getattr(scene, "effects", ())
                                             if (said := item.refuses({"wheel": supplied["wheel"]}))), "")):
         table.fault(text.removeprefix("wheel: "), "wheel")
-    if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in supplied:
+    if (motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in supplied
+            and "lean" not in table):
         angles = supplied.get("attitude")
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
                 else "")

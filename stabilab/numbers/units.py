@@ -117,7 +117,7 @@ DIMENSIONS: dict[str, Dimension] = {
     "motion.damper_wheel": RATE,
     "motion.damper": RATE, "motion.wheel": MOMENTUM, "motion.rotation_period": TIME,
     "motion.precession_period": TIME, "motion.amplitude": ANGLE, "motion.spin": RATE,
-    "motion.nutation": ANGLE,
+    "motion.nutation": ANGLE, "motion.lean": ANGLE,
 }
 
 # compiled where a unit is read
