@@ -47,7 +47,7 @@ UNCERTAIN_KEYS = {
     ("circular_orbit",): ("rate", "period", "altitude", "radius"),
     **{("effects", name): keys for name, keys in {
         "gyrostat": ("momentum",), "constant_torque": ("torque", "mu"),
-        "viscous_damper": ("inertia", "coefficient"), "damper_wheel": ("inertia", "coefficient"),
+        "viscous_damper": ("inertia", "coefficient"), "damper_wheel": ("inertia", "coefficient", "stiffness"),
         "damper_mass": ("mass", "stiffness", "coefficient"), "rate_damper": ("coefficient",),
         "resistance": ("coefficient",),
         "eddy_currents": ("coefficient", "field"), "liquid_cavity": ("density", "viscosity", "P0", "radius"),

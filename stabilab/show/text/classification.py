@@ -72,7 +72,8 @@ def resting(equilibria: Equilibria, units: Units) -> str:
     """How many states of equilibrium there are, and how many of them are stable, in one line."""
     if equilibria.kind == "undecided":
         return (f"UNDECIDED, {len(equilibria.points)} known ({_count(p.verdict for p in equilibria.points)})"
-                if equilibria.points else "UNDECIDED")
+                if equilibria.points else f"UNDECIDED, {len(equilibria.curves)} curves known "
+                f"({_listed(Counter(map(_along, equilibria.curves)))})" if equilibria.curves else "UNDECIDED")
     if equilibria.kind in ("none", "all"):
         return {"none": "none", "all": "every state is one"}[equilibria.kind]
     parts = ([f"{len(equilibria.points)} isolated ({_count(p.verdict for p in equilibria.points)})"]
