@@ -26,7 +26,7 @@ class DamperWheel(Effect):
     """A rotor of moment J about its axis a, a unit vector fixed in the body, on a bearing whose torque on it
     is -c s, s its rate relative to the body (rad/s): a ring of liquid about a, or a damper wheel, which is
     the same (Savransky, Nutation Damper Animation, MATLAB Central File Exchange 129304, after Kasdin and
-    Paley, Engineering Dynamics, 2011, has these equations for a symmetric body).
+    Paley, has these equations for a symmetric body).
 
     inertia: J, kg m^2, about its axis; the moments of the body hold the rotor as if it were at rest there,
     and about other axes it turns with the body. coefficient: c, N m s. axis: of any length. stiffness: k,
