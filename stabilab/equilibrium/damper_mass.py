@@ -90,7 +90,7 @@ def relaxed_equilibria(parts: Content) -> Equilibria:
         if polynomials is not None:
             line = RationalCurve(Description(AXIS_LINE(component=component(p.names[i])),
                                              *line_text(p.names, (Fraction(0),) * 3, unit(i))),
-                                 straight_line((0, 0, 0), unit(i)), CASIMIR)
+                                 straight_line((Fraction(0),) * 3, unit(i)), CASIMIR)
             curves.append(_judged(line, polynomials, bool(parts.movers[0].exact[1])))
     return Equilibria("undecided", curves=tuple(curves), reason=RELAXED)
 

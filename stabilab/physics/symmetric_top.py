@@ -135,9 +135,8 @@ class SymmetricTop:
         """What is known of the spin and lean of a state."""
         spin, u = self.seen(omega, gamma)
         found = Precession((), None) if abs(u) > 1 - UPRIGHT else self.precession(spin, u)
-        pair = lambda ends: None if ends is None else tuple(map(float, ends))
         return TopRates(float(spin), acos(max(-1.0, min(1.0, float(u)))), tuple(map(float, found.rates)),
-                        pair(found.spins), pair(self.critical(1)), pair(self.critical(-1)))
+                        _floats(found.spins), _floats(self.critical(1)), _floats(self.critical(-1)))
 
     def leans(self, spin: Fraction) -> list[tuple[float, float]]:
         """The leans, deg, at which a spin has a steady precession, rising."""
@@ -192,8 +191,12 @@ def top_rates(scene: AnyScene, start: Sequence[float | Fraction]) -> TopRates | 
     """What is known of the spin and lean of a scene at a start, which begins with omega and gamma; None where
     it is no symmetric top."""
     top = SymmetricTop.of(scene)
-    omega, gamma = (tuple(map(Fraction, part)) for part in (start[:3], start[3:6]))
+    omega, gamma = (tuple(Fraction(v) for v in part) for part in (start[:3], start[3:6]))
     return None if top is None or len(gamma) < 3 or not any(gamma) else top.at(omega, gamma)
+
+
+def _floats(ends: tuple[Fraction, Fraction] | None) -> tuple[float, float] | None:
+    return None if ends is None else (float(ends[0]), float(ends[1]))
 
 
 def _roots(a: float, b: float, c: float) -> list[float]:
