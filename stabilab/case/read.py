@@ -65,7 +65,8 @@ SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is 
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
-          "damper": "damper", "wheel": "wheel", "damper_wheel": "damper_wheel", "damper_mass": "damper_mass"}
+          "damper": "damper", "wheel": "wheel", "damper_wheel": "damper_wheel",
+          "sprung_wheel": "sprung_wheel", "damper_mass": "damper_mass"}
 OBSERVED_KEYS = frozenset(OBSERVED)
 TURNED_BACK = Fraction(1, 10**15)
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
@@ -118,7 +119,8 @@ class Case:
     to read answers (empty where the file does not say); swept: (key, value as written) of every key of
     [sweep].
     caveats: what the file itself says that limits every answer. observed: whether the start is stated by
-    periods, or by spin and nutation, from which the state was found. correlations: of uncertain numbers.
+    periods, or by spin and nutation or lean, from which the state was found. correlations: of uncertain
+    numbers.
     """
 
     path: str = field(compare=False)
@@ -717,6 +719,13 @@ def _judge_blocks(motion: _Motion, scene):
     if "damper" in supplied and scene is not None and "damper" not in scene.blocks:
         table.fault("no damper turns in this body: give [effects.viscous_damper], or take the key away",
                     "damper")
+    if "sprung_wheel" in supplied and scene is not None and "sprung_wheel" not in scene.blocks:
+        table.fault("no damper wheel is on a spring in this body: give [effects.damper_wheel] a stiffness, "
+                    "or take the key away", "sprung_wheel")
+    if "damper_wheel" in supplied and scene is not None and "sprung_wheel" in scene.blocks:
+        table.fault("the damper wheel is on a spring: give its angle and its rate, sprung_wheel = [0, 0.5]",
+                    "damper_wheel")
+        return
     for key in ("damper_wheel", "damper_mass"):
         if key in supplied and scene is not None and key not in scene.blocks:
             table.fault(f"no {effect_words(key)} is in this body: give [effects.{key}], or take the key away",
@@ -727,7 +736,8 @@ def _judge_blocks(motion: _Motion, scene):
     if "wheel" in supplied and (text := next((said for item in getattr(scene, "effects", ())
                                             if (said := item.refuses({"wheel": supplied["wheel"]}))), "")):
         table.fault(text.removeprefix("wheel: "), "wheel")
-    if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in supplied:
+    if (motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in supplied
+            and "lean" not in table):
         angles = supplied.get("attitude")
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
                 else "")

@@ -45,7 +45,7 @@ UNCERTAIN_KEYS = {
     ("body",): ("inertia", "mass"), ("body", "products"): ("xy", "xz", "yz"), ("scaled",): ("a", "b", "mu"),
     ("wheels",): ("momentum", "inertia", "speed"),
     ("motion",): ("angular_velocity", "x", "rotation_period", "precession_period", "amplitude", "spin",
-                  "nutation"),
+                  "nutation", "lean"),
     ("circular_orbit",): ("rate", "period", "altitude", "radius")}
 
 
@@ -64,10 +64,12 @@ def uncertain_keys() -> set[tuple[str, ...]]:
     return effects | {(*table, key) for table, keys in UNCERTAIN_KEYS.items() for key in keys}
 
 
-# Keys of [motion] by which a start is stated as it is observed (`observed`): of a tumbling body, of a spin
+# Keys of [motion] by which a start is stated as it is observed (`observed`): of a tumbling body, of a spin,
+# of a top that precesses steadily
 TUMBLING = ("rotation_period", "precession_period", "amplitude", "mode")
 SPINNING = ("spin", "axis", "nutation", "towards")
-OBSERVED = TUMBLING + SPINNING
+LEANING = ("lean", "precession")
+OBSERVED = TUMBLING + SPINNING + LEANING
 
 
 HOMES = {word: home for home, value in {
