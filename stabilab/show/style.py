@@ -74,6 +74,7 @@ SPACE = {  # words of a legend -> how that is drawn in the space of rates
     "nearest point of the separatrix": {"marker": "o", "color": PALE, "markeredgecolor": BLACK,
                                         "markersize": 6, "linestyle": "none"},
     "limit of |ω|": {"color": VERMILION, "linestyle": "--", "linewidth": 0.9},
+    "assumed limit of |ω|": {"color": VERMILION, "linestyle": (0, (2, 3)), "linewidth": 0.9},
     **{equilibrium: MEANING[kind] for kind, equilibrium in EQUILIBRIA.items()}}
 SURFACES = ("#B4BABE", "#5F6467", "#EFEDE9", "#868B8F")  # of the separatrix, in order: greys
 SERIES = (BLACK, VIOLET, SAGE, WINE, GREY)               # one curve each for a list of parameters

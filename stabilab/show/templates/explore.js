@@ -164,7 +164,7 @@ function show(answer) {
   const saddle = answer.plane && answer.plane.rests.some(one => one.saddle), centre = answer.plane && answer.plane.rests.some(one => !one.saddle);
   fill("plane-words", answer.plane ? `Violet: this motion;${saddle ? " black: separatrix;" : ""} grey: other energies${centre ? "; filled: centre" : ""}${saddle ? "; open: saddle" : ""}. Click to start a motion there.`
     : "This scene does not reduce to one degree of freedom, so it has no phase plane.", words => [signed(words)]);
-  const limited = answer.time.limits.length ? "Dashed: limit" + (answer.time.reached === null ? "." : answer.time.reached.length > 1 ? ", reached between the upright lines." : ", reached at the upright line.") : "";
+  const limited = answer.time.limits.length ? `Dashed: ${answer.time.assumed ? "assumed limit" : "limit"}` + (answer.time.reached === null ? "." : answer.time.reached.length > 1 ? ", reached between the upright lines." : ", reached at the upright line.") : "";
   const told = [limited, answer.time.extremes ? "Dotted: least and greatest for ever." : "", periods(answer.time).length ? "Grey: whole periods." : ""].join(" ").trim();
   fill("time-words", [answer.time.names, told], ([names, words]) => [...names.map((name, n) => {
     const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n] || INK.size; mark.style.fontWeight = 600; return mark; }), words]);
