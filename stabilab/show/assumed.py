@@ -6,13 +6,12 @@ answer: pictures call it assumed, and no headline has it."""
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from ..errors import StabilabError
 from ..orbit.result import Fate, Motion
-from ..packages import present
 from ..physics.scene import AnyScene
 from .units import SHORT, Units
 
@@ -37,18 +36,17 @@ class Assumed:
 
 
 def assumed(case: Any, scene: AnyScene, state: Sequence[float] | None, motion: Motion | None,
-            timed: bool = True) -> Assumed | None:
-    """The limit assumed of a motion; None where the case states one, and where nothing turns. timed: with the
-    time of a motion that spins up, which takes a run."""
+            time_to: Callable[..., Any] | None = None) -> Assumed | None:
+    """The limit assumed of a motion; None where the case states one, and where nothing turns. time_to: that
+    of `answers`, by a run, of a motion that spins up; None: without its time."""
     if state is None or case is not None and case.limits is not None:
         return None
     largest, basis = _largest(scene, state, motion)
     rate = TWICE * largest
     if not (rate > 0 and math.isfinite(rate)):
         return None
-    if not timed or motion is None or motion.fate is not Fate.SPIN_UP or not present("numpy"):
+    if time_to is None or motion is None or motion.fate is not Fate.SPIN_UP:
         return Assumed(rate, basis=basis)
-    from ..answers.time_to import time_to
     try:
         found = time_to(scene, state, rate=rate, work=0)
     except StabilabError:

@@ -22,7 +22,7 @@ from ...case.read import Case
 from ...case.write import data_of
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
-from ...orbit.result import Motion, Needs
+from ...orbit.result import Fate, Motion, Needs
 from ...orbit.separatrix.saddles import REACH
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
@@ -147,21 +147,22 @@ class Session:
             clicked = pictures.clicked(self._twin(case), case.state, request["click"], self.units)
             case, note = changed(self.case, request | {"start": clicked, "click": None}, self.units)
         result, text = self._motion(case, moving, stopped)
-        lines = text, ""
+        lines, runs = (text, ""), None
         if result is not None:
             result = judged(case, result, brief=True)
             if not moving and present("numpy"):
                 result = with_ending(case, result)
-            if case.limits is not None and not moving and present("numpy"):
-                from ...answers.when import with_first
-                result = with_first(case, result, QUICK)
+            if not moving and present("numpy") and (case.limits is not None or result.fate is Fate.SPIN_UP):
+                from ...answers.when import time_to, with_first
+                runs = time_to
+                result = result if case.limits is None else with_first(case, result, QUICK)
             text, lines = headline(case, result, units), two_lines(case, result, units)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
         form = None if twin is None else twin.quadratic()
-        supposed = self._once("assumed", (case.scene, case.state, moving), lambda: assumed(
-            case, case.scene, case.state, result, timed=not moving))
+        supposed = self._once("assumed", (case.scene, case.state, case.limits, moving), lambda: assumed(
+            case, case.scene, case.state, result, runs))
         until, cut = _length(case, result, form, moving, supposed and supposed.time)
         times, path = self._once("line", (case.scene, case.state, until, moving),
                                  lambda: line(case, form, until, moving))

@@ -240,7 +240,7 @@ def limit_marks(ax, limit, when, t, omega, time_unit, rate_unit, look=None):
 
 def _assumed(ax: Axes, limit: Assumed, t: np.ndarray, omega: np.ndarray, time_unit: tuple[str, float],
              scale: Measures) -> list[tuple[str, dict[str, Any]]]:
-    """The limit of a case that states none: as `limit_marks` where the motion comes so far; else it is said alone,
+    """The limit of a case that states none: as `limit_marks` where the motion comes so far; else said alone,
     as room for its line would be taken from the curves."""
     rate, per_rate = scale.rate
     text = f"assumed limit, {limit.rate * per_rate:.4g} {rate}".rstrip()

@@ -13,6 +13,7 @@ from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.stuck.ask import stuck
 from ...answers.stuck.margins import Row
+from ...answers.time_to import time_to
 from ...case.read import Case, load
 from ...errors import InputError, printable
 from ...orbit.reduction import reduce
@@ -118,7 +119,8 @@ class Subject:
     @cached_property
     def assumed(self) -> Assumed | None:
         """The limit to which pictures are drawn where the case states none."""
-        return assumed(self.case, self.scene, self.state, None if self.state is None else self.motion)
+        return assumed(self.case, self.scene, self.state, None if self.state is None else self.motion,
+                       time_to)
 
 
 def subject(source: Any, state: Any = None, span: Any = None) -> Subject:
