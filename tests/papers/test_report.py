@@ -300,7 +300,7 @@ def test_a_report_needs_no_renderer_and_brings_the_meshes(alone):
     """The fixtures are made where nothing can be drawn in 3-D: the page draws its space by itself, in the
     reader's browser."""
     assert "space-data" in alone.read_text(encoding="utf-8")
-    assert {p.suffix for p in (alone.parent / "cases").iterdir()} == {".vtp", ".glb", ".stl", ".png", ".json"}
+    assert {p.suffix for p in (alone.parent / "cases").iterdir()} == {".vtp", ".glb", ".png", ".json"}
 
 
 def test_nothing_is_left_beside_the_report(alone):

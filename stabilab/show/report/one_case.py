@@ -100,6 +100,7 @@ def _later(item) -> str:
 
 
 # --- A case
+CHANGES = "What would change the fate"
 EXPLAINED = {"margin, rate": ": the smallest change of the rates that reaches the separatrix",
              "margin, energy": ", the barrier ahead less the energy"}
 
@@ -152,7 +153,11 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         for kind, about in SHOWN.items():
             missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
-        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
+        changing = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
+        if changing is None or changing["rows"] or changing["words"]:
+            page["sensitivity"] = changing
+        else:  # a reason alone makes no section
+            absent.append((CHANGES, changing["reason"]))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(item, result, units))
     page["uncertain"] = uncertain_text(box, units)
     if certify:
