@@ -355,6 +355,7 @@ OPEN_TOP = 10.0  # times the top of the picture: where a band ends that is open 
 TALL = 8.0  # times the least: of times farther apart the logarithm is drawn
 ANGLES = np.radians(np.geomspace(0.1, 10.0, 4))  # and more where times bend
 EARLIEST = {"color": style.VERMILION, "linewidth": 2.0}
+FEWER_STEPS = {"linewidth": 1.0, "linestyle": ":"}
 BAND = {"facecolor": style.VERMILION, "alpha": 0.22, "linewidth": 0}
 SURE = {"facecolor": style.BLUE, "alpha": 0.18, "linewidth": 0}
 NOW = {"color": style.BLACK, "linestyle": "--", "linewidth": 1.2}
@@ -396,6 +397,13 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
             target.plot(degrees[reached], per * out.earliest[reached], **EARLIEST)
             rows.append((f"to the latest of {SIDES} directions" + f", with {out.within}"
                          * bool(out.within), BAND))
+            if not reached.all():  # where the line begins its runs have come to their last step
+                begins = np.argmax(reached)
+                target.plot(degrees[[begins, begins]], [per * out.earliest[begins], top],
+                            **EARLIEST | FEWER_STEPS)
+                target.plot(degrees[~reached], np.full((~reached).sum(), 0.93 * top), color=EARLIEST["color"],
+                            **NEVER)
+                rows.append(("not within the steps of a run", NEVER | {"color": EARLIEST["color"]}))
         if out.not_before.any():
             low = 0.3 * per * float(finite.min())
             target.fill_between(degrees, low, np.maximum(per * out.not_before, low), **SURE)
