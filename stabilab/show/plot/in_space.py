@@ -319,7 +319,7 @@ def space_of(item: Subject, names: Iterable[str], rate: tuple[str, float], resol
             resolved = None
     line, part = ([], "") if moved is None else _path(item)
     marks = marks_of(item.state, moved, resolved)
-    limit = limit_of(item.case)
+    limit = limit_of(item.case, item.assumed)
     nearby = [*nearest(resolved, line), *beside_limit(limit, line)] if line else []
     box = box_of(line, marks + nearby, branches_of(item.twin)[0], most, reaching)
     surface, text, _ = branches_of(item.twin, box, shape)
@@ -384,7 +384,8 @@ def _path(item: Subject) -> tuple[list[Any], str]:
     period = item.motion.period
     low, high = item.seen
     t, omega = path(item, low, low + period if period else high)
-    omega = omega[:len(near_part(t.tolist(), omega.tolist(), item.motion))]
+    omega = omega[:len(near_part(t.tolist(), omega.tolist(), item.motion,
+                                   item.assumed and item.assumed.time))]
     part = ""
     if (end := min(map(_end_of_the_first_turns, omega.T))) < len(omega):
         unit, per = measures(item).time(abs(high - low))

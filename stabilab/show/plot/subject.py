@@ -13,6 +13,7 @@ from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.stuck.ask import stuck
 from ...answers.stuck.margins import Row
+from ...answers.time_to import time_to
 from ...case.read import Case, load
 from ...errors import InputError, printable
 from ...maps.percentiles import Percentiles
@@ -26,6 +27,7 @@ from ...theories.follow import models_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
 from .. import space
+from ..assumed import Assumed, assumed
 from ..axes import PLAIN, Axes, axes_of
 from ..picture_kinds import KINDS
 from ..text import headline
@@ -114,7 +116,14 @@ class Subject:
     @cached_property
     def seen(self) -> tuple[float, ...]:
         """(from, to): the span that its pictures show, in the scene's time."""
-        return self.asked or space.seen(self.span, self.motion, space.natural(self.scene, self.state))
+        return self.asked or space.seen(self.span, self.motion, space.natural(self.scene, self.state),
+                                        None if self.assumed is None else self.assumed.time)
+
+    @cached_property
+    def assumed(self) -> Assumed | None:
+        """The limit to which pictures are drawn where the case states none."""
+        return assumed(self.case, self.scene, self.state, None if self.state is None else self.motion,
+                       time_to)
 
 
 def subject(source: Any, state: Any = None, span: Any = None) -> Subject:

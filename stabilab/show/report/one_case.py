@@ -106,6 +106,7 @@ def _later(item) -> str:
 
 
 # --- A case
+CHANGES = "What would change the fate"
 EXPLAINED = {"margin, rate": ": the smallest change of the rates that reaches the separatrix",
              "margin, energy": ", the barrier ahead less the energy"}
 
@@ -152,7 +153,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "equilibria": result and equilibrium_table(result, units),
             "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
-        page |= {"tiles": tiles(moved, units), "facts": facts(case, moved, units),
+        page |= {"tiles": tiles(moved, units), "facts": facts(item, moved, units),
                  "extremes": extremes(case, moved, units), "over": _over(units.said(moved.over))}
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(item, folder, stem, deep,
@@ -163,7 +164,11 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
                 continue
             missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
-        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
+        changing = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
+        if changing is None or changing["rows"] or changing["words"]:
+            page["sensitivity"] = changing
+        else:  # a reason alone makes no section
+            absent.append((CHANGES, changing["reason"]))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(item, result, units))
     page["uncertain"] = uncertain_text(box, units)
     page["percentiles"] = "" if item.draws is None else percentiles.text(item.draws, units)
@@ -190,12 +195,14 @@ def _tried(absent, what, built):
         return None
 
 
-def facts(case, motion, units) -> list[tuple[str, str]]:
+def facts(item, motion, units) -> list[tuple[str, str]]:
     """(what, its value) of everything known of the motion, in the order in which one asks."""
+    case = item.case
     validity, axes = motion.validity, frame.rows_of_axes(case)
     result = [("law", units.said(validity.reason))] if validity is not None and validity.held else []
     at = state(motion.at, units, case.scene.blocks)
     result += [("start", f"{at} at {'τ' if units.scaled else 't'} = 0")]
+    result += [] if item.assumed is None else [("limit", item.assumed.words(units))]
     result += [("because", units.said(motion.reason).removeprefix("undecided: "))]
     result += [] if motion.ending is None else [("its end", units.said(motion.ending.reason))]
     explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_reason else {})
