@@ -369,7 +369,10 @@ class Orbiting:
 def load_orbiting(given: Any) -> Orbiting:
     """The case of a file, of a text of several lines or of a dict, that has [circular_orbit] (rate, period,
     altitude or radius), for `circular_orbit`. Raises CaseError as `load` does."""
-    path, text, data, faults = _stated(given, "load_orbiting")
+    return _orbiting(*_stated(given, "load_orbiting"))
+
+
+def _orbiting(path: Any, text: str, data: dict, faults: Faults) -> Orbiting:
     craft = _built(path, text, data, faults, orbiting=True)
     if "period" in data["circular_orbit"]:  # its rate holds pi
         craft = replace(craft, inexact=(*craft.inexact, "circular_orbit.period"))
@@ -389,8 +392,10 @@ def special_of(case: Case) -> Burning | Orbiting | None:
     """What a case is the craft of: a burn, or a satellite on a circular orbit; None where it is the whole."""
     if any(thruster.burn is not None for thruster in case.thrusters):
         return Burning(case)
-    full = load_any(case) if "circular_orbit" in case.text else None
-    return full if isinstance(full, Orbiting) else None
+    if "circular_orbit" not in case.text:
+        return None
+    data, faults = parsed(case.path, case.text)
+    return _orbiting(case.path, case.text, data, faults) if "circular_orbit" in data else None
 
 
 def load_each(path: str | Path) -> list[Case]:

@@ -109,7 +109,7 @@ def _levels(ax: Axes, answer: Burned, end: float, units: Units, per_time: float)
     if (largest := answer.closed.largest_rate) is not None:
         low = per_time * min(answer.closed.time, end)
         ax.plot([low, per_time * end], [per_rate * largest] * 2, **FOR_EVER)
-        rows.append((f"then never above {units.rate(largest, SHORT, side=1)}", FOR_EVER))
+        rows.append((f"then never above {units.rate(largest, side=1)}", FOR_EVER))
     needed = answer.latest
     if needed is None:
         return rows

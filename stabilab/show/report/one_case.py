@@ -186,8 +186,8 @@ SPECIAL = {
     "burn": {"time": ("Rates across the switches",
                       "Grey: while a thruster fires; then the free motion after the last closing.")},
     "orbit": {"equilibria": ("The attitudes at rest in the orbital frame",
-                             "Blue: stable; vermilion: unstable; amber: undecided. A half turn about the orbit "
-                             "normal leads to the other of each pair.")}}
+                             "Blue: stable; vermilion: unstable; amber: undecided. A half turn about the "
+                             "orbit normal leads to the other of each pair.")}}
 AFTERWARDS = " Of the free motion after the last closing."
 
 
@@ -205,7 +205,8 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         answer = circular_orbit(full)
         line, text = orbit_headline(answer.equilibria), circular_orbit_text(case, answer, units)
         fate = looks = ""
-    drawn = _tried(absent, "Pictures", lambda: pictures(item, folder, stem, deep, units.name)) or []
+    every = deep or not burning
+    drawn = _tried(absent, "Pictures", lambda: pictures(item, folder, stem, every, units.name)) or []
     own = SPECIAL["burn" if burning else "orbit"]
     for row in drawn:
         row["title"], row["caption"] = own.get(
@@ -218,9 +219,10 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
     caveats = limiting.beside(item.caveats, units, line)
     return dict.fromkeys(("law", "exceeded", "over", "uncertain", "sensitivity", "certificate", "equilibria",
                           "equations", "space"), "") | {
-        "name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text,
-        "headline": printed(line), "caveats": list(map(printed, caveats)), "fate": fate, "look": looks,
-        "tiles": [], "facts": [], "extremes": [], "pictures": drawn, "answer": printed(text),
+        "name": case.name, "title": case.heading, "source": case.source, "path": case.path,
+        "text": case.text, "headline": printed(line), "first": printed(line), "small": "",
+        "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "tiles": [], "facts": [],
+        "extremes": [], "pictures": drawn, "answer": printed(text),
         "absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
 
 
