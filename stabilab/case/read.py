@@ -369,7 +369,10 @@ class Orbiting:
 def load_orbiting(given: Any) -> Orbiting:
     """The case of a file, of a text of several lines or of a dict, that has [circular_orbit] (rate, period,
     altitude or radius), for `circular_orbit`. Raises CaseError as `load` does."""
-    path, text, data, faults = _stated(given, "load_orbiting")
+    return _orbiting(*_stated(given, "load_orbiting"))
+
+
+def _orbiting(path: Any, text: str, data: dict, faults: Faults) -> Orbiting:
     craft = _built(path, text, data, faults, orbiting=True)
     if "period" in data["circular_orbit"]:  # its rate holds pi
         craft = replace(craft, inexact=(*craft.inexact, "circular_orbit.period"))
@@ -377,6 +380,41 @@ def load_orbiting(given: Any) -> Orbiting:
         craft = replace(craft, caveats=(*craft.caveats, Caveat(Kind.STATED, NO_START())))
     # it has no fault, or the case had not been built
     return Orbiting(craft, rate_squared(Table(("circular_orbit",), data["circular_orbit"], faults)))
+
+
+def special(path: str | os.PathLike[str]) -> bool:
+    """Whether this case file has [circular_orbit], or thrusters that fire on a schedule."""
+    *_, data, faults = _read(path)
+    return "circular_orbit" in data or bool(_scheduled(data, faults))
+
+
+def special_of(case: Case) -> Burning | Orbiting | None:
+    """What a case is the craft of: a burn, or a satellite on a circular orbit; None where it is the whole."""
+    if any(thruster.burn is not None for thruster in case.thrusters):
+        return Burning(case)
+    if "circular_orbit" not in case.text:
+        return None
+    data, faults = parsed(case.path, case.text)
+    return _orbiting(case.path, case.text, data, faults) if "circular_orbit" in data else None
+
+
+def load_each(path: str | Path) -> list[Case]:
+    """As `load_all`; of a burn or a satellite on a circular orbit its craft (`special_of`)."""
+    if not special(path):
+        return load_all(path)
+    full = load_any(path)
+    return [full if isinstance(full, Case) else full.craft]
+
+
+def load_any(given: Any) -> Case | Burning | Orbiting:
+    """The case that is given, of whatever kind: a satellite where it has [circular_orbit], a burn where
+    thrusters fire on a schedule, else as `load` has it. Raises CaseError as these do."""
+    if isinstance(given, (Burning, Orbiting)) or hasattr(given, "quadratic"):
+        return given if not hasattr(given, "quadratic") else load(given)
+    *_, data, faults = _stated(given, "load_any", "its text, a dict, or a scene")
+    if "circular_orbit" in data:
+        return load_orbiting(given)
+    return load_burning(given) if _scheduled(data, faults) else load(given)
 
 
 def _judge_burns(top: Table, burning: bool):

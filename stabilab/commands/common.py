@@ -9,7 +9,7 @@ from typing import Any
 
 from ..answers.motion import Needs, motion
 from ..case.limit_options import stated_tilt
-from ..case.read import Case, blamed_on, load_all
+from ..case.read import Case, blamed_on, load_all, load_each
 from ..errors import InputError, printable
 from ..numbers.units import NONE, TIME, quantity, split
 from ..show.names import spare_case
@@ -23,12 +23,13 @@ LONG = 1.0  # s from which the time of an answer is said beforehand
 
 
 # --- The cases, times and units that a command line names
-def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
-    """All cases and combinations of [sweep]; the faults of all files at once. motion: each must state one."""
+def load_cases(paths: Iterable[Path], motion: bool = False, special: bool = False) -> list[Case]:
+    """All cases and combinations of [sweep]; the faults of all files at once. motion: each must state one;
+    special: burns and satellites on a circular orbit too, by their craft."""
     cases, faults = [], []
     for path in paths:
         try:
-            cases.extend(read := load_all(path))
+            cases.extend(read := (load_each if special else load_all)(path))
             list(map(spare_case, read))
         except InputError as error:
             faults.append(str(error))

@@ -73,7 +73,7 @@ def report(cases, out, papers, precision, certify, workers, strict):
     """Write the pages; the laws that do not hold are told beside the path."""
     beyond: list[str] = []
     undecided: list[str] = []
-    loaded = load_cases(cases or [])
+    loaded = load_cases(cases or [], special=True)
     built = write_report(loaded, out, arguments=sys.argv[1:], papers=papers, precision=precision,
                         certify=certify,
                         workers=workers, beyond=beyond, undecided=undecided)

@@ -10,13 +10,14 @@ import typer
 from ..answers.caveats import answered, of_case
 from ..answers.chaos import Order, row_of
 from ..answers.chaos import chaos as ask_chaos
-from ..case.read import blamed_on, load
+from ..case.read import blamed_on, load, load_any, special
 from ..errors import RenderingUnavailable, printable
 from ..show import endings, limiting
 from ..show.maps import chaos as chaos_shown
 from ..show.maps import picture
 from ..show.maps import to_file as map_files
 from ..show.plot import to_file
+from ..show.plot.subject import subject
 from ..show.surface import text as surface_text
 from ..show.surface import write_all
 from ..show.terminal import lettered, say, tell
@@ -64,6 +65,9 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
         target = out or Path(f"{printable(case.stem)}.png")
         write(str(redraw(case, target, kind, to_file.inches(size), dpi, units)))
         return
+    if special(case):
+        _plot_special(case, kind, out, to_file.inches(size), dpi, until, units)
+        return
     loaded, drawn = load_cases([case], motion=kind != "equilibria"), []
     units_asked(loaded, units)  # says what is wrong with them
     target = out or Path(to_file.default_name(printable(case.stem), kind))
@@ -80,6 +84,21 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
             tell(lettered(held.words))
         write("\n".join(map(str, paths)))
     hold_laws(strict, laws, loaded)
+
+
+def _plot_special(case, kind, out, size, dpi, until, units):
+    """Draw a burn, or a satellite on a circular orbit."""
+    built = load_any(case)
+    craft = built.craft
+    units_asked([craft], units)
+    target = out or Path(to_file.default_name(printable(case.stem), kind))
+    with blamed_on(craft):
+        end = time_asked(until, craft, "until")
+        item = subject(built, span=end)
+        paths = to_file.write_all(item, target, kind, size, dpi, units)
+    for line in limiting.beside(item.caveats, units_of(craft, units)):
+        tell(line)
+    write("\n".join(map(str, paths)))
 
 
 def chaos(cases, until, out, csv, json, strict):

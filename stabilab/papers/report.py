@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from ..case.given import Given, Span, Start, as_text
-from ..case.read import Case, load_all
+from ..case.read import Case, load_each, special_of
 from ..errors import StabilabError
 from ..interrupt import undoing
 from ..orbit.result import OUTCOMES, Fate
@@ -344,7 +344,7 @@ def _precision_of_kinds(cases, folder, **around):
     """The first case of every kind: the others of a kind obey the same equations with other numbers."""
     firsts: dict = {}
     for case in cases:
-        if case.state is not None and case.span is not None:
+        if case.state is not None and case.span is not None and special_of(case) is None:
             firsts.setdefault(precision_page.kind(case), case)
     left = len(own.entries(cases)) - len(firsts)
     return precision_page.page(firsts.values(), folder,
@@ -389,7 +389,7 @@ def _hero(cases, result) -> dict | None:
     """The answer to a stuck thruster that the start page begins with: of a spacecraft with wheels, if one is
     among the cases."""
     craft = [(stem, members[0]) for stem, members in own.entries(cases)
-             if len(members) == 1 and members[0].thrusters]
+             if len(members) == 1 and members[0].thrusters and special_of(members[0]) is None]
     for stem, _ in sorted(craft, key=lambda item: not item[1].wheels):
         made = result[f"case {stem}"]["case"]
         picture = next((item for item in made["pictures"] if item["kind"] == "time"), None)
@@ -507,8 +507,9 @@ def report(case: Given, out: str | os.PathLike[str] = "report", precision: bool 
 
 def of_all(cases):
     """The cases that a report is on: those given, or all of the papers."""
-    paths = list(cases or sorted(table.case_files(), key=lambda p: _natural(Path(p).stem)))
-    return [case for item in paths for case in ([item] if hasattr(item, "scene") else load_all(item))]
+    paths = list(cases or [*sorted(table.case_files(), key=lambda p: _natural(Path(p).stem)),
+                           *table.case_files(("burns/*", "orbits/*"))])
+    return [case for item in paths for case in ([item] if hasattr(item, "scene") else load_each(item))]
 
 
 def _natural(name):
@@ -524,7 +525,8 @@ def command(cases, papers, precision, certify) -> str:
 
 
 def _precision(cases, folder, tell):
-    path = precision_page.page([members[0] for _, members in own.entries(cases)], folder, tell)
+    path = precision_page.page([members[0] for _, members in own.entries(cases)
+                                if special_of(members[0]) is None], folder, tell)
     return [{"title": "What accuracy costs", "words": "every way to follow the motion, error against time",
              "file": path.name}]
 

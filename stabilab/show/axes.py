@@ -88,6 +88,12 @@ class Axes:
         """Beside an axis that is drawn: "z", of a full tensor "minor"."""
         return self.letters[number - 1] or self.ranks[number - 1]
 
+    def full(self, number: int) -> str:
+        """Beside an axis of the body: its letter, its number and its rank, "z, 3, minor"."""
+        letter, word = self.letters[number - 1], self.ranks[number - 1]
+        counted = str(number) not in letter
+        return ", ".join(filter(None, (letter, str(number) * counted, word)))
+
     def in_file(self, vector: Sequence[float]) -> tuple[float, ...]:
         """The components of a vector (3,) along the axes of the file; as they are where these are no others.
         """

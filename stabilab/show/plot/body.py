@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -43,6 +44,9 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
     """
     item = subject(case, state)
     subjects.check("body", item)
+    if item.burning is not None:  # at its start, not after the last closing
+        craft = item.burning.craft
+        item = replace(item, state=craft.state, heading=craft.heading)
     from matplotlib.patheffects import withStroke
     scene = subjects.bodily(item)
     sides = box_sides(scene.body.inertia)
@@ -138,10 +142,10 @@ def _box(ax, sides, axes):
     corners = CORNERS * sides / 2
     ax.add_collection3d(Poly3DCollection([corners[list(face)] for face in FACES], facecolor=style.GREY,
                                          edgecolor="#444444", alpha=0.16, linewidth=0.9))
-    for i in range(3):
+    for i, colour in enumerate(style.AXES):
         line = np.outer((-1.0, 1.0), np.eye(3)[i]) * (sides[i] / 2 + 0.22)
-        ax.plot(*line.T, color=style.GREY, linewidth=0.9, linestyle="-.")
-        ax.text(*line[1], f" {axes.label(i + 1)} ", color="#444444", ha="left" if i == 1 else "right",
+        ax.plot(*line.T, color=colour, linewidth=1.3, linestyle="-.")
+        ax.text(*line[1], f" {axes.full(i + 1)} ", color=colour, ha="left" if i == 1 else "right",
                 va="bottom", fontsize=9.5)
 
 

@@ -15,6 +15,7 @@ from .. import style
 from ..space import Box, Space, curves_of, look, marks_of, spread
 from ..space import space as drawn_in
 from . import canvas, in_space
+from . import subject as subjects
 from .in_space import EQUILIBRIUM_LOOKS, disc, holds, inside, marker, plane_of
 from .subject import Subject, measures, subject
 
@@ -38,9 +39,12 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     and diamonds; open diamonds mark where a curve changes its stability. Where all lie in a plane across an
     axis (a torque on an axis) that plane is drawn, else the space of rates; axes that are given decide it
     themselves. A state, given or of the case, is marked. Of scenes with a direction of space (top) the rates
-    of the permanent rotations are drawn. Raises InputError where there is none.
+    of the permanent rotations are drawn; of a satellite on a circular orbit the body at each attitude at rest
+    (`orbital.attitudes`). Raises InputError where there is none.
     """
     item = subject(case, state)
+    if (own := subjects.elsewhere("equilibria", item)) is not None:
+        return own(item, ax, units, size, legend)
     result = all_of(item.case or item.scene)
     if not result.points and not result.curves:
         raise InputError(f"plot equilibria: there is nothing to draw: {result.reason}")

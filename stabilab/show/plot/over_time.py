@@ -67,12 +67,15 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     principal axes and |omega| in deg/s, over seconds, minutes or hours (units="si": rad/s and s; scaled
     scenes have x and tau), under the answer in one line where there is a case. Dotted: least and greatest
     value of each component over all time, where they are known. Grey: the ends of the periods. Dashed: the
-    limits of the case, and a point where one is reached first. Of limits about axes of a file that are not
+    limits of the case, and a point where one is reached first. Of a burn: across the switches of its
+    thrusters and after the last closing (`switches.rates`). Of limits about axes of a file that are not
     the principal ones, the components along those axes are drawn instead. span: (from, to) or the end; None:
     the case's own, at most ten periods, and past the time at which a limit is reached.
     """
     item = subject(case, state, span)
     subjects.check("time", item)
+    if (own := subjects.elsewhere("time", item)) is not None:
+        return own(item, ax, units, size, legend)
     scale = measures(item, units)
     low, high = item.seen
     t, omega = path(item, low, high)
@@ -81,7 +84,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     (time_unit, per_time), (rate_unit, per_rate) = scale.time(_measured(item, low, high)), scale.rate
     names = scale.names if turned is None else IN_FILE
     with canvas.on(ax, size) as target:
-        rows, looks = _rates(target, t, omega, names, scale, (time_unit, per_time))
+        rows, looks = components(target, t, omega, names, scale, (time_unit, per_time))
         rows += _samples(target, item, t, per_time, per_rate, looks) if turned is None else []
         rows += _extremes(target, item, per_rate) if turned is None else []
         rows += _periods(target, item, low, high, per_time, scale)
@@ -98,7 +101,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
                                 item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 
 
-def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], scale: Measures,
+def components(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], scale: Measures,
            time_unit: tuple[str, float]):
     """Draw the size and the components (n, 3) of rates over times (n,); the rows of the legend, and the looks
     of the components."""
@@ -275,7 +278,7 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
         until = _until(scenario, row, scene)
         t, omega = path(subject(scene, scenario.start), 0.0, until)
         omega, time_unit = omega @ np.array(scenario.rows).T, units.times(until)
-        drawn, _ = _rates(ax, t, omega, IN_FILE, scale, time_unit)
+        drawn, _ = components(ax, t, omega, IN_FILE, scale, time_unit)
         if row.limit is not None:
             drawn += limit_marks(ax, row.limit, row.time_to_limit, t, omega, time_unit, scale.rate)
         ax.set_ylabel(with_unit("rate, axes of the file", scale.rate[0]))

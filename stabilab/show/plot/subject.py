@@ -5,17 +5,21 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from ...answers.caveats import of_case
+from ...answers.circular_orbit import circular_orbit
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.stuck.ask import stuck
+from ...answers.stuck.burn import burn
 from ...answers.stuck.margins import Row
 from ...answers.time_to import time_to
-from ...case.read import Case, load
-from ...errors import InputError, printable
+from ...case.read import Burning, Case, Orbiting, load_any
+from ...errors import Caveat, InputError, printable
 from ...maps.percentiles import Percentiles
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
@@ -43,7 +47,8 @@ class Subject:
     may be empty; case: where all this stands, or None; neighbours: how many motions a section shows beside
     it, None for the usual number; known: its motion, where that is worked out already; asked: the span that
     its pictures show, None for what is worth seeing; draws: percentiles over its uncertain numbers, where
-    they are found already."""
+    they are found already. burning: a burn, after whose last closing scene and state are, in a time that
+    counts from there; orbiting: a satellite on a circular orbit, whose scene is its body with its wheels."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -55,6 +60,17 @@ class Subject:
     known: Motion | None = field(default=None, repr=False)
     asked: tuple[float, ...] | None = None
     draws: Percentiles | None = field(default=None, repr=False)
+    burning: Burning | None = field(default=None, repr=False)
+    orbiting: Orbiting | None = field(default=None, repr=False)
+
+    @cached_property
+    def caveats(self) -> tuple[Caveat, ...]:
+        """What limits every answer about it."""
+        if self.burning is not None:
+            return burn(self.burning).caveats
+        if self.orbiting is not None:
+            return circular_orbit(self.orbiting).caveats
+        return () if self.case is None else of_case(self.case)
 
     @property
     def physical(self) -> bool:
@@ -137,10 +153,23 @@ def subject(source: Any, state: Any = None, span: Any = None) -> Subject:
         own = Subject(source.scene, source.state, source.blocks, ends or source.span, source.heading, source,
                       asked=ends)
         return own if state is None else replace(own, case=None, **_blocks_of(source.scene, state))
+    if isinstance(source, Burning):
+        return _burned(source, ends)
+    if isinstance(source, Orbiting):
+        craft = source.craft
+        return Subject(craft.physical, None, {}, None, craft.heading, craft, orbiting=source)
     if not hasattr(source, "quadratic"):
-        return subject(load(source), state, span)
+        return subject(load_any(source), state, span)
     start = {"state": None, "blocks": {}} if state is None else _blocks_of(source, state)
     return Subject(checked_scene(source), span=ends, asked=ends, **start)
+
+
+def _burned(burning: Burning, ends: tuple[float, ...] | None) -> Subject:
+    """What follows a burn."""
+    closed, craft = burn(burning).closed, burning.craft
+    after = replace(craft, state=closed.rates, decimals=None, span=None)
+    heading = f"{craft.heading}, after the last closing"
+    return Subject(craft.physical, closed.rates, {}, None, heading, after, asked=ends, burning=burning)
 
 
 def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:
@@ -165,6 +194,14 @@ FAR = (
 
 ALIKE = ("no approximate theory comes with a wheel and a constant torque: the rates over time are the exact "
          "motion")
+ON_ORBIT = ("equilibria", "body")
+NO_MOTION_ON_ORBIT = ("a motion on a circular orbit is not followed; its attitudes at rest are drawn: "
+                      "--kind equilibria")
+NOT_OF_BURNS = {
+    "tilt": "the torque of a burn ends, and after it nothing has a tilt",
+    "wheel": "the torque of a burn ends; by when thrusters must close: stabilab burn --below",
+    "histogram": "draws of uncertain numbers are of a torque that never changes",
+    "budget": "what accuracy costs is measured of a torque that never changes"}
 NO_BODY = "scaled variables have no body: give the case in physical units"
 
 
@@ -172,6 +209,10 @@ def why_not(kind: str, item: Subject) -> str:
     """Why a subject has no plot of a kind; empty where it has one."""
     if kind not in KINDS:
         return f"there is no such kind; expected one of {', '.join(KINDS)}"
+    if item.orbiting is not None and kind not in ON_ORBIT:
+        return NO_MOTION_ON_ORBIT
+    if item.burning is not None and kind in NOT_OF_BURNS:
+        return NOT_OF_BURNS[kind]
     needed, why = NEEDS[KINDS[kind].needs]
     if needed and item.state is None:
         return ("it needs a motion: add [motion] with angular_velocity or x" if item.case is not None
@@ -189,6 +230,17 @@ def check(kind: str, item: Subject) -> None:
     raise InputError(f"plot {kind}: {why}; this one has {', '.join(offered(item))}")
 
 
+def elsewhere(kind: str, item: Subject) -> Callable[..., Any] | None:
+    """What draws a kind of picture of a burn or of a satellite on an orbit, where that has one of its own."""
+    drawn = {"time": "switches.rates"} if item.burning is not None else (
+        {"equilibria": "orbital.attitudes"} if item.orbiting is not None else {})
+    if kind not in drawn:
+        return None
+    module, _, name = drawn[kind].partition(".")
+    function: Callable[..., Any] = getattr(import_module(f".{module}", __package__), name)
+    return function
+
+
 def offered(item: Subject) -> tuple[str, ...]:
     """The kinds of plot that a subject has."""
     return tuple(kind for kind in KINDS if not why_not(kind, item))
@@ -197,7 +249,8 @@ def offered(item: Subject) -> tuple[str, ...]:
 def default(item: Subject) -> str:
     """The kind that says most of a subject: its plane where it reduces, all parts of a longer state, else the
     rates over time."""
-    kinds = ("phase", "time" if rates_alone(item) else "state", "time", "equilibria")
+    usual = ("phase", "time" if rates_alone(item) else "state", "time", "equilibria")
+    kinds = ("time",) if item.burning is not None else usual
     return next(kind for kind in kinds if not why_not(kind, item))
 
 

@@ -14,10 +14,13 @@ import numpy as np
 
 from ...answers.caveats import of_case
 from ...answers.certificate import certificate
+from ...answers.circular_orbit import circular_orbit
 from ...answers.equilibria import equilibria
 from ...answers.motion import Needs, motion
+from ...answers.stuck.burn import burn
 from ...answers.uncertain.fate import uncertain
 from ...answers.when import with_tilt
+from ...case.read import Burning, Orbiting
 from ...errors import Kind, StabilabError, without
 from ...maps.percentiles import of_case_drawn
 from ...physics.equations import derive, invariants
@@ -37,8 +40,9 @@ from ..terminal import printed, some
 from ..text import percentiles
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
-from ..text.motion import constants, margins, shown, state
+from ..text.motion import circular_orbit_text, constants, margins, orbit_headline, shown, state
 from ..text.scene import fates, key_columns, latex, of_all_combinations, of_motions
+from ..text.stuck import burn_headline, burn_text, burn_undecided
 from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
 from . import formulas, html
 from .html import picture
@@ -175,6 +179,51 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))
     return page | {"absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
+
+
+# kind -> title and caption, where they are others of a burn or a satellite on a circular orbit
+SPECIAL = {
+    "burn": {"time": ("Rates across the switches",
+                      "Grey: while a thruster fires; then the free motion after the last closing.")},
+    "orbit": {"equilibria": ("The attitudes at rest in the orbital frame",
+                             "Blue: stable; vermilion: unstable; amber: undecided. A half turn about the "
+                             "orbit normal leads to the other of each pair.")}}
+AFTERWARDS = " Of the free motion after the last closing."
+
+
+def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep: bool = True) -> dict:
+    """Everything that the template says of a burn, or of a satellite on a circular orbit: the answer of its
+    command, and its pictures."""
+    case, item, absent = full.craft, subject(full), []
+    units, burning = units_of(case), item.burning is not None
+    if burning:
+        answer = burn(full)
+        line, text = burn_headline(answer, units), burn_text(case, answer, units)
+        fate = "undecided" if burn_undecided(answer) else answer.closed.motion.fate.word
+        looks = "conditional" if burn_undecided(answer) else look(answer.closed.motion)
+    else:
+        answer = circular_orbit(full)
+        line, text = orbit_headline(answer.equilibria), circular_orbit_text(case, answer, units)
+        fate = looks = ""
+    every = deep or not burning
+    drawn = _tried(absent, "Pictures", lambda: pictures(item, folder, stem, every, units.name)) or []
+    own = SPECIAL["burn" if burning else "orbit"]
+    for row in drawn:
+        row["title"], row["caption"] = own.get(
+            row["kind"], (row["title"], row["caption"] + AFTERWARDS * (burning and row["kind"] != "body")))
+        row["place"] = "motion" if row["place"] == "equilibria" else row["place"]
+    missing: dict[str, list[str]] = {}
+    for kind, about in SHOWN.items():
+        missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
+    absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
+    caveats = limiting.beside(item.caveats, units, line)
+    return dict.fromkeys(("law", "exceeded", "over", "uncertain", "sensitivity", "certificate", "equilibria",
+                          "equations", "space"), "") | {
+        "name": case.name, "title": case.heading, "source": case.source, "path": case.path,
+        "text": case.text, "headline": printed(line), "first": printed(line), "small": "",
+        "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "tiles": [], "facts": [],
+        "extremes": [], "pictures": drawn, "answer": printed(text),
+        "absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
 
 
 def _over(text) -> str:

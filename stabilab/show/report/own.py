@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...case.read import special_of
 from ...errors import StabilabError
 from ...orbit.separatrix.branches import separatrix
 from ...tasks import Task, done
@@ -55,6 +56,9 @@ def section(stem: str, cases: Sequence[Case], folder: Path, wanted: Wanted) -> d
         return {"sweep": result, "surface": None, "beyond": headline.of_cases(cases),
                 "open": any(row["fate"] == "undecided" for row in result["rows"])}
     (case,) = cases
+    if (full := special_of(case)) is not None:
+        built = one_case.sections_of_special(full, folder, stem, wanted.deep)
+        return {"case": built, "surface": None, "beyond": "", "open": built["fate"] == "undecided"}
     built = one_case.sections(case, folder, stem, wanted.deep, wanted.certify)
     return {"case": built, "surface": surface_of(case, stem, folder), "beyond": headline.of_cases([case]),
             "open": built["fate"] == "undecided"}

@@ -389,11 +389,11 @@ def _object(case, result, item) -> dict:
     return {**dict(zip(("velocity", "normal", "vertical"), frame)), "yaw_pitch_roll": yaw_pitch_roll(*frame),
             **values_of(item, "linear verdict because minimum eigenvalues frequencies"),
             "reason": item.reason.as_dict(),
-            "growth_time": _growth_time(item), "per_orbit": [f / result.rate for f in item.frequencies],
+            "growth_time": grows_in(item), "per_orbit": [f / result.rate for f in item.frequencies],
             "potential": item.potential}
 
 
-def _growth_time(item) -> float | None:
+def grows_in(item) -> float | None:
     """In which time a disturbance grows by the factor e, s; None where none does exponentially."""
     rate = max((complex(z).real for z in item.eigenvalues), default=0.0)
     return 1 / rate if item.verdict == "unstable" and rate > 0 else None
@@ -407,7 +407,7 @@ def _frame(case, item):
 def circular_orbit_text(case, out, units: Units) -> str:
     """The answer first, then each pair of equilibria, and why."""
     result = out.equilibria
-    lines = [f"{case.name}: {_orbit_headline(result)}",
+    lines = [f"{case.name}: {orbit_headline(result)}",
              row("orbit", f"rate {units.rate(out.rate)}, period {units.time(out.period)}"),
              row("wheels", f"{units.vector(in_file(case, out.momentum), ('N m s', 1.0))}")]
     for number_, family in enumerate(result.points[::2]):
@@ -426,7 +426,8 @@ def circular_orbit_text(case, out, units: Units) -> str:
     return "\n".join(lines)
 
 
-def _orbit_headline(result) -> str:
+def orbit_headline(result) -> str:
+    """The answer of a satellite on a circular orbit in one line."""
     if result.kind == "all":
         return "EVERY ATTITUDE IS AN EQUILIBRIUM"
     stable = sum(family.verdict == "stable" for family in result.families)
@@ -446,7 +447,7 @@ def _lines(case, result, item, units: Units, name: str, other=None):
                           for each in sorted(pair, key=lambda angles: sum(map(abs, angles))))
     word = item.verdict if item.linear != "degenerate" else f"{item.verdict}, degenerate"
     yield row(name, f"{word}: yaw, pitch, roll {angles}")
-    if (grows := _growth_time(item)) is not None:
+    if (grows := grows_in(item)) is not None:
         yield row("", f"a disturbance grows e-fold in {units.time(grows, SHORT)}")
         return
     _, normal, vertical = map(vector, _frame(case, item))

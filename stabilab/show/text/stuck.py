@@ -365,7 +365,7 @@ def _latest(item) -> dict | None:
 
 def burn_text(case, result, units: Units) -> str:
     """The answer first, then what is left, the switches and why."""
-    lines = [f"{case.name}: {_headline(result, units)}"]
+    lines = [f"{case.name}: {burn_headline(result, units)}"]
     if result.latest is not None:
         lines += _of_latest(result, units)
     lines += _of_closed(case, result, result.closed, units)
@@ -380,7 +380,8 @@ def burn_text(case, result, units: Units) -> str:
     return "\n".join([*lines, f"why: {units.said(result.closed.motion.reason)}"])
 
 
-def _headline(result, units: Units) -> str:
+def burn_headline(result, units: Units) -> str:
+    """The answer of a burn in one line."""
     item, latest = result.closed, result.latest
     if latest is None:
         after = ("largest rate not known" if item.largest_rate is None

@@ -1,0 +1,121 @@
+"""The rates of a burn over time: across the switches of its thrusters, and after the last closing."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...answers.stuck.burn import Burned, burn
+from ...answers.stuck.chain import Chain, links_of
+from ...errors import InputError
+from .. import style
+from ..text.stuck import burn_headline
+from ..units import SHORT, Units, number, units_of
+from . import canvas
+from .over_time import LIMIT, components
+from .path import path
+from .subject import Subject, measures, subject
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+FIRES = {"facecolor": style.PALE, "alpha": 0.55, "linewidth": 0}
+CLOSING = {"color": style.BLACK, "linestyle": "-", "linewidth": 1.6}
+SWITCH = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
+CLOSE_BY = {"color": style.VERMILION, "linestyle": "-.", "linewidth": 1.6}
+FOR_EVER = {"color": style.BLACK, "linestyle": (0, (1, 2)), "linewidth": 1.3}
+AFTER = 0.4  # of the time up to the last closing: how long what follows is shown at least
+PERIODS = 3  # of what follows: as many are shown where they take no longer than the burn
+MARKED = 60  # switches at most that are ruled; of more the thrusters fire too often to be told apart
+
+
+def rates(item: Subject, ax: Axes | None = None, units: str | None = None,
+          size: tuple[float, float] | None = None, legend: bool = True) -> Axes:
+    """Draw the rates of a burn (a Subject with `burning`) along the principal axes, and return the axes.
+
+    Grey areas: while a thruster fires; black: the last closing; dotted: the largest |omega| for ever after
+    it. Where the case states a limit of |omega|, that too, and the latest closing time that keeps it. Raises
+    InputError as `stabilab.burn` does, and for a span that does not begin at 0.
+    """
+    if item.burning is None:
+        raise InputError("plot: expected a burn: a case whose thrusters fire on a schedule")
+    chain, limits = Chain(item.burning), item.burning.craft.limits
+    below = limits.rate if limits is not None and limits.rate is not None and chain.quiet else None
+    answer = burn(item.burning, below=below)
+    scale, end = measures(item, units), _end(item, answer)
+    parts = list(_followed(chain, answer, end))
+    t, omega = (np.concatenate(columns) for columns in zip(*parts))
+    unit, per_time = scale.time(end)
+    with canvas.on(ax, size) as target:
+        rows, _ = components(target, t, omega, scale.names, scale, (unit, per_time))
+        rows += _switches(target, answer, end, per_time, unit)
+        system = scale.system or units_of(item.burning.craft)
+        rows += _levels(target, answer, end, system, per_time)
+        return canvas.explained(target, list(dict(rows).items()) if legend else [], ax is None,
+                                item.burning.craft.heading, burn_headline(answer, system))
+
+
+def _end(item: Subject, answer: Burned) -> float:
+    """s: the end that was asked for; else some time after the last closing, and past the end of the span."""
+    if item.asked:
+        if item.asked[0] != 0:
+            raise InputError("plot time: a burn is followed from 0 on: give the end alone")
+        return item.asked[-1]
+    closed, craft = answer.closed, item.burning.craft  # type: ignore[union-attr]
+    period = closed.motion.period or 0.0
+    few = min(PERIODS * period, closed.time) if np.isfinite(period) else 0.0
+    end = closed.time + max(AFTER * closed.time, few)
+    return max(end or 1.0, craft.span[-1] if craft.span else 0.0)
+
+
+def _followed(chain: Chain, answer: Burned, end: float) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """(times (n,), rates (n, 3)) of each motion in turn, up to the end."""
+    for link in links_of(chain):
+        begin, length = float(link.begin), min(float(link.length), end - float(link.begin))
+        if length > 0:
+            t, states = path(subject(link.scene, link.start.tolist()), 0.0, length)
+            yield begin + t, states
+    if end > answer.closed.time:
+        t, states = path(subject(chain.base, answer.closed.rates), 0.0, end - answer.closed.time)
+        yield answer.closed.time + t, states
+
+
+def _switches(ax: Axes, answer: Burned, end: float, per_time: float, unit: str) -> list[tuple[str, Any]]:
+    """When thrusters fire, and the last closing; rows of the legend."""
+    closed, rows = answer.closed.time, []
+    ends = [*(switch.time for switch in answer.switches[1:]), closed]
+    for switch, after in zip(answer.switches, ends):
+        if switch.firing:
+            ax.axvspan(per_time * switch.time, per_time * min(after, end), zorder=0, **FIRES)
+            rows.append((f"firing: {', '.join(dict.fromkeys(_names(answer)))}", FIRES))
+    for switch in answer.switches[1:] if len(answer.switches) <= MARKED else ():
+        ax.axvline(per_time * switch.time, zorder=1, **SWITCH)
+        rows.append(("switch", SWITCH))
+    if closed <= end:
+        ax.axvline(per_time * closed, zorder=1.5, **CLOSING)
+        rows.append((f"last closing, {number(per_time * closed, SHORT)} {unit}", CLOSING))
+    return rows
+
+
+def _names(answer: Burned) -> list[str]:
+    return [name for switch in answer.switches for name in switch.firing]
+
+
+def _levels(ax: Axes, answer: Burned, end: float, units: Units, per_time: float) -> list[tuple[str, Any]]:
+    """The largest rate for ever after, the limit and by when to close; rows of the legend."""
+    per_rate = units.rates[1]
+    rows: list[tuple[str, Any]] = []
+    if (largest := answer.closed.largest_rate) is not None:
+        low = per_time * min(answer.closed.time, end)
+        ax.plot([low, per_time * end], [per_rate * largest] * 2, **FOR_EVER)
+        rows.append((f"then never above {units.rate(largest, side=1)}", FOR_EVER))
+    needed = answer.latest
+    if needed is None:
+        return rows
+    ax.axhline(per_rate * needed.limit, **LIMIT)
+    rows.append((f"limit of |ω|, {units.rate(needed.limit, SHORT)}", LIMIT))
+    if 0 < needed.low <= end:
+        ax.axvline(per_time * needed.low, zorder=1.5, **CLOSE_BY)
+        rows.append((f"close by {units.time(needed.low, SHORT, side=-1)} to stay below it", CLOSE_BY))
+    return rows
