@@ -30,6 +30,7 @@ RIGHTWARD = np.array([-np.sin(np.radians(VIEW[1])), np.cos(np.radians(VIEW[1])),
 LETTERS = {"fontsize": 11, "zorder": 12}
 FARTHEST = 0.75  # of the longest side of the box: a thruster that is farther out stands there
 SIZE = (7.2, 7.0)  # inches
+ROOM = 4.2  # inches across: in a smaller picture a legend would leave no room for the body
 
 
 def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
@@ -39,7 +40,7 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
 
     Every effect of the scene is drawn, the rates at the start, the thrusters and wheels of the case, and the
     axes of its file where these are others. Directions and proportions are those of the case, lengths of
-    arrows are not. bare: the body and the effects alone, axes by number. Raises InputError for scaled
+    arrows are not; a picture less than 4.2 inches wide has no legend. bare: the body and the effects alone, axes by number. Raises InputError for scaled
     variables.
     """
     item = subject(case, state)
@@ -67,7 +68,7 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
             text.set(path_effects=halo, zorder=LETTERS["zorder"])
         if not bare:
             canvas.title(target, item.heading, most=canvas.TITLE_LINES if ax is None else None)
-        if legend:
+        if legend and (size is None or size[0] >= ROOM):
             style.legend(target.figure, rows, columns=1)
     return target
 

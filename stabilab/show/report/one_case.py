@@ -99,6 +99,18 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
     return result
 
 
+SMALL_BODY = (3.2, 3.0)  # inches: letters of 9.5 points have 9 px where it is shown 240 px wide
+
+
+def small_body(item, folder: Path, stem: str, units: str) -> dict | None:
+    """The body as a small drawing, with what acts on it; None without a body."""
+    if subjects.why_not("body", item):
+        return None
+    path, *_ = to_file.write_all(item, folder / f"{stem}-small.png", "body", SMALL_BODY, units=units,
+                                 titled=False)
+    return picture(path, "", None)
+
+
 def _later(item) -> str:
     """What a picture that ends before a spin-up begins has to say."""
     release = item.motion.evidence.get("release_time")
@@ -156,6 +168,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "certificate": None,
             "equilibria": result and equilibrium_table(result, units),
             "equations": _tried(absent, "Equations", lambda: equations(case))}
+    page["body"] = _tried(absent, "Body", lambda: small_body(item, folder, stem,
+                                                             "deg" if units.scaled else units.name))
     if moved is not None:
         page |= {"tiles": tiles(moved, units), "facts": facts(item, moved, units),
                  "extremes": extremes(case, moved, units), "over": _over(units.said(moved.over))}
