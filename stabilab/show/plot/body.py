@@ -1,6 +1,7 @@
 """The body as the box of its moments, with what acts on it: a sketch of a case."""
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import product
@@ -30,6 +31,8 @@ RIGHTWARD = np.array([-np.sin(np.radians(VIEW[1])), np.cos(np.radians(VIEW[1])),
 LETTERS = {"fontsize": 11, "zorder": 12}
 FARTHEST = 0.75  # of the longest side of the box: a thruster that is farther out stands there
 SIZE = (7.2, 7.0)  # inches
+# what a small picture leaves out of words
+LETTER_ALONE = re.compile(r"\b(?:torque|momentum|force|field|weight|motor|charge) ")
 ROOM = 4.2  # inches across: in a smaller picture a legend would leave no room for the body
 
 
@@ -40,8 +43,8 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
 
     Every effect of the scene is drawn, the rates at the start, the thrusters and wheels of the case, and the
     axes of its file where these are others. Directions and proportions are those of the case, lengths of
-    arrows are not; a picture less than 4.2 inches wide has no legend. bare: the body and the effects alone, axes by number. Raises InputError for scaled
-    variables.
+    arrows are not; a picture less than 4.2 inches wide has no legend. bare: the body and the effects alone,
+    axes by number. Raises InputError for scaled variables.
     """
     item = subject(case, state)
     subjects.check("body", item)
@@ -62,13 +65,16 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         target.set(xlim=(-0.8, 0.8), ylim=(-0.8, 0.8), zlim=(-0.7, 0.9))
         target.set_axis_off()
         target.view_init(*VIEW)
-        target.set_box_aspect((1, 1, 1), zoom=1.3)
+        small = size is not None and size[0] < ROOM
+        target.set_box_aspect((1, 1, 1), zoom=1.15 if small else 1.3)  # its words reach farther out
         halo = [withStroke(linewidth=2.5, foreground="white")]  # words lie on lines and arrows
         for text in target.texts:
+            if small:
+                text.set_text(LETTER_ALONE.sub("", text.get_text()))
             text.set(path_effects=halo, zorder=LETTERS["zorder"])
         if not bare:
             canvas.title(target, item.heading, most=canvas.TITLE_LINES if ax is None else None)
-        if legend and (size is None or size[0] >= ROOM):
+        if legend and not small:
             style.legend(target.figure, rows, columns=1)
     return target
 

@@ -99,7 +99,7 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
     return result
 
 
-SMALL_BODY = (3.2, 3.0)  # inches: letters of 9.5 points have 9 px where it is shown 240 px wide
+SMALL_BODY = (3.9, 2.9)  # inches: letters of 9.5 points have 9 px where it is shown 270 px wide
 
 
 def small_body(item, folder: Path, stem: str, units: str) -> dict | None:
