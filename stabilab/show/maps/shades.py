@@ -179,10 +179,9 @@ def _deepest(here: np.ndarray) -> tuple[int, int, int]:
     sides = np.pad(here.astype(int), ((1, 0), (1, 0)))
     for row in range(1, sides.shape[0]):
         above = sides[row - 1]
-        line, left = sides[row], 0
+        line = sides[row]
         for column in np.flatnonzero(line).tolist():
-            left = line[column - 1]
-            line[column] = 1 + min(left, above[column], above[column - 1])
+            line[column] = 1 + min(line[column - 1], above[column], above[column - 1])
     row, column = np.unravel_index(int(sides.argmax()), sides.shape)
     half = int(sides[row, column]) // 2
     return int(row) - 1 - half, int(column) - 1 - half, half

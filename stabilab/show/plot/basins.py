@@ -3,6 +3,7 @@ one."""
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -87,7 +88,7 @@ def _areas(ax: Axes, result: Basins) -> list[tuple[str, dict[str, Any]]]:
                     else []))
 
 
-def _hatches(ax: Axes, result: Basins, cells: np.ndarray) -> None:
+def _hatches(ax: Axes, result: Basins, cells: Mapping[str, np.ndarray]) -> None:
     """The hatch and the letter of the axis about which each basin of spin-up turns."""
     across, up = (np.array(axis.values) for axis in result.plan.axes)
     step = max(1, max(len(across), len(up)) // FINE)

@@ -20,11 +20,11 @@ from .subject import Subject, measures, subject
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-FIRES = {"facecolor": style.PALE, "alpha": 0.55, "linewidth": 0}
-CLOSING = {"color": style.BLACK, "linestyle": "-", "linewidth": 1.6}
-SWITCH = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
-CLOSE_BY = {"color": style.VERMILION, "linestyle": "-.", "linewidth": 1.6}
-FOR_EVER = {"color": style.BLACK, "linestyle": (0, (1, 2)), "linewidth": 1.3}
+FIRES: dict[str, Any] = {"facecolor": style.PALE, "alpha": 0.55, "linewidth": 0}
+CLOSING: dict[str, Any] = {"color": style.BLACK, "linestyle": "-", "linewidth": 1.6}
+SWITCH: dict[str, Any] = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
+CLOSE_BY: dict[str, Any] = {"color": style.VERMILION, "linestyle": "-.", "linewidth": 1.6}
+FOR_EVER: dict[str, Any] = {"color": style.BLACK, "linestyle": (0, (1, 2)), "linewidth": 1.3}
 AFTER = 0.4  # of the time up to the last closing: how long what follows is shown at least
 PERIODS = 3  # of what follows: as many are shown where they take no longer than the burn
 MARKED = 60  # switches at most that are ruled; of more the thrusters fire too often to be told apart

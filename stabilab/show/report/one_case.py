@@ -216,8 +216,8 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         fate = "undecided" if burn_undecided(answer) else answer.closed.motion.fate.word
         looks = "conditional" if burn_undecided(answer) else look(answer.closed.motion)
     else:
-        answer = circular_orbit(full)
-        line, text = orbit_headline(answer.equilibria), circular_orbit_text(case, answer, units)
+        around = circular_orbit(full)
+        line, text = orbit_headline(around.equilibria), circular_orbit_text(case, around, units)
         fate = looks = ""
     every = deep or not burning
     drawn = _tried(absent, "Pictures", lambda: pictures(item, folder, stem, every, units.name)) or []
