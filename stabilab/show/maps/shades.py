@@ -182,9 +182,9 @@ def _deepest(here: np.ndarray) -> tuple[int, int, int]:
         line = sides[row]
         for column in np.flatnonzero(line).tolist():
             line[column] = 1 + min(line[column - 1], above[column], above[column - 1])
-    row, column = np.unravel_index(int(sides.argmax()), sides.shape)
-    half = int(sides[row, column]) // 2
-    return int(row) - 1 - half, int(column) - 1 - half, half
+    lowest, last = divmod(int(sides.argmax()), sides.shape[1])
+    half = int(sides[lowest, last]) // 2
+    return lowest - 1 - half, last - 1 - half, half
 
 
 def label(data: Any, name: str) -> str:

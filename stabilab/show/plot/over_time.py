@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 COMPONENTS = tuple({"color": colour, "linewidth": 1.3} for colour in style.AXES)
 SIZE_LOOK = {"color": style.BLACK, "linewidth": 2.2}
 EXTREME = {"linestyle": (0, (1, 2)), "linewidth": 1.1}
-LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
+LIMIT: dict[str, Any] = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
 SUPPOSED = LIMIT | {"linestyle": (0, (2, 3))}  # of a case that states none
 REACHED = {"marker": "o", "color": style.VERMILION, "markersize": 6.5, "linestyle": "none"}
 BETWEEN = {"facecolor": style.VERMILION, "alpha": 0.18, "linewidth": 0}  # the ends of its time are far apart
