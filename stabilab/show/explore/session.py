@@ -42,6 +42,8 @@ from ..terminal import capital, lettered, written
 from ..text.classification import called
 from ..text.headline import headline, judged, look, two_lines
 from ..text.motion import margins
+from ..turns import band
+from ..turns.moment import moment
 from ..units import SHORT, Units, but_for_rounding, units_of
 from . import parameters, pictures
 from .parameters import changed
@@ -166,7 +168,9 @@ class Session:
         if result is not None and result.ending is not None and result.ending.until is not None:
             end = seen(case.span, result, until)[1]  # past it, though its turns are too many for the space
             full = self._once("whole", (case.scene, case.state, end), lambda: pictures.path(case, end))
-        picture = self._space(bag, case, twin, result, at_rest, times, path, request.get("box"), moving)
+        long = self._turns(case, result, times, path, until, moving)
+        cut = "" if long is not None and long[2] else cut
+        picture = self._space(bag, case, twin, result, at_rest, times, path, request.get("box"), moving, long)
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
         holds = None if result is None else result.validity  # of an approximate law
@@ -226,8 +230,22 @@ class Session:
         self._cost["equilibria"] = max(self._cost.get("equilibria", 0.0), time.process_time() - began)
         return result
 
-    def _space(self, bag, case, twin, result, at_rest, times, path, request, moving):
-        nearby = space.near_part(times, path, result)
+    def _turns(self, case, result, times, path, until, moving):
+        """(what is drawn of a motion of many turns, the places from which that is made, whether of all of it:
+        once the slider rests); None of one of few."""
+        path = space.near_part(times, path, result)
+        times = times[:len(path)]
+        key = case.scene, case.state, until, moving, result is None
+        if result is not None and not moving and present("numpy") and band.often(path) > band.MANY:
+            long = self._once("turns", key, lambda: pictures.turns_of(
+                case, result, seen(case.span, result, until)[1], self.units))
+            return None if long is None else (*long, True)
+        long = self._once("turns", key, lambda: band.along(
+            times, path, self.units.times(times[-1]), result and moment(result)))
+        return None if long is None else (long, path, False)
+
+    def _space(self, bag, case, twin, result, at_rest, times, path, request, moving, long):
+        nearby = space.near_part(times, path, result) if long is None else long[1]
         bare, ghost = (None, False) if twin is None else _without_tilt(twin)
         marks = space.marks_of(case.state, result, at_rest)
         limit = space.limit_of(case)
@@ -244,7 +262,7 @@ class Session:
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
                             lambda: space.curves_of(at_rest, box, *POINTS[moving], known))
         drawn = space.space(names, self.units.rates, box, branches, nearby, marks, curves, text,
-                      " without the tilt" * ghost, limit)
+                      " without the tilt" * ghost, limit, long and long[0])
         if ghost:
             text = ("No separatrix is known for a torque off the axes"
                      + (": the surface drawn is that of the torque without its tilt" if drawn.branches
