@@ -259,7 +259,7 @@ def _rings(item: Subject, ax: Any, units: str | None, size: tuple[float, float] 
                 ("centre (stable)", MIDDLE)]
         return canvas.explained(target, rows if legend else [], ax is None, item.heading,
                                 f"periodic, {_time(float(item.motion.period), scale)}; all that stay bounded "
-                                f"here are")
+                                f"here are", notes=canvas.notes(item, scale, answered=False))
 
 
 def _coordinates(item: Subject, result: rings.Island,
