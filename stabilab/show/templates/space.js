@@ -133,11 +133,15 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
     gl.viewport(0, 0, width, height); gl.clearColor(1, 1, 1, 1); gl.enable(gl.DEPTH_TEST); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniformMatrix4fv(where("view"), false, seen.matrix); gl.uniform3fv(where("eye"), seen.eye);
     gl.enable(gl.BLEND); gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
-    for (const part of [...parts.filter(one => one.flatly), ...parts.filter(one => !one.flatly && !one.sheer), ...parts.filter(one => one.sheer)].filter(({wall}) => !wall || wall[1] * seen.eye[wall[0]] < 0)) {
+    for (const part of [...parts.filter(one => one.flatly), ...parts.filter(one => !one.flatly && !one.sheer), ...parts.filter(one => one.sheer).sort((a, b) => b.sheer - a.sheer)].filter(({wall}) => !wall || wall[1] * seen.eye[wall[0]] < 0)) {
       const clear = glass < 1 && !part.flatly;  // a surface: after all else, and hiding nothing behind it
       gl.depthMask(!clear && !part.sheer); gl.uniform1f(where("glass"), part.sheer || (clear ? glass : 1));
       gl.uniform3fv(where("colour"), part.colour); gl.uniform1f(where("flatly"), part.flatly); gl.bindVertexArray(part.vertices);
-      gl.drawElements(gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0);
+      if (part.sheer) {  // its nearest layer alone
+        gl.depthMask(true); gl.colorMask(false, false, false, false); gl.drawElements(gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0);
+        gl.colorMask(true, true, true, true); gl.depthFunc(gl.LEQUAL);
+      }
+      gl.drawElements(gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0); gl.depthFunc(gl.LESS);
     }
     gl.depthMask(true);
     pen.drawImage(layer, 0, 0); words(seen, sharp);
