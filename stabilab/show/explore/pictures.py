@@ -316,12 +316,12 @@ def turns_of(case: Case, motion: Motion, until: float, units: Units) -> tuple[Lo
     return resolved
 
 
-def film(case: Case, until: float, bag: Bag, units: Units) -> dict[str, Any]:
-    """The body as it turns in that time, as `templates/turning.js` draws it."""
+def film(case: Case, motion: Motion | None, until: float, bag: Bag, units: Units) -> dict[str, Any]:
+    """The body as it turns in that time, as `templates/turning.js` draws it. motion: what is known of it."""
     _, turning = _plots()
-    item = turning.subject(case, span=until)
+    item = replace(turning.subject(case, span=until), known=motion)
     result = turning.turn(item, FRAMES)
-    drawn = turning.drawn(item, result, units.times(until), units.rates,
+    drawn = turning.drawn(item, result, units.times(until), units.rates, units,
                           lambda rows: bag.add("float32", rows.ravel().tolist()))
     return drawn | {"names": [units.axes.label(n) for n in (1, 2, 3)],
                     "words": f"Arrows: {result.words}. {result.part(units)}"}

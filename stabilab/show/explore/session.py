@@ -99,6 +99,7 @@ SWEPT = (
     "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer "
     "every combination.")
 QUICK = 2_000_000  # multiplications for the proof of a time at a limit: some tenths of a second
+FILM = 20_000.0  # rad of turn at most, of which a film is followed
 SLOW_SECONDS = 0.12  # s: a motion whose kind took longer the last time waits until the slider rests
 
 
@@ -172,6 +173,7 @@ class Session:
         cut = "" if long is not None and long[2] else cut
         picture = self._space(bag, case, twin, result, at_rest, times, path, request.get("box"), moving, long)
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
+        shown = full[0][-1] if math.hypot(*case.state) * full[0][-1] <= FILM else times[-1]
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
         holds = None if result is None else result.validity  # of an approximate law
         notes = [note, self._swept, cut, holds and units.said(holds.reason),
@@ -186,7 +188,7 @@ class Session:
                          *([] if result is None else rows(case, result, units))],
                 "plane": None if twin is None else pictures.drawn_planes(bag, twin, case.state, units),
                 "time": pictures.over_time(bag, case, result, *full, units),
-                "film": pictures.film(case, times[-1], bag, units) if turns else None}
+                "film": pictures.film(case, result, shown, bag, units) if turns else None}
         built["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else pictures.NOT_YET
         return built | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
