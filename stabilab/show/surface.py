@@ -219,10 +219,10 @@ def plotter(result: Space) -> Any:
     for phrase, places in result.curves:
         tube(share(places), LINE if phrase in style.SPACE else THIN, look(phrase)["color"])
     toward = sight(result.view)
-    for places in map(share, result.lines):
-        tube(places, LINE, style.VIOLET)
+    for route in map(share, result.lines):
+        tube(route, LINE, style.VIOLET)
         for axis in range(3):
-            wall = np.where(np.arange(3) == axis, -np.sign(toward[axis]), places)
+            wall = np.where(np.arange(3) == axis, -np.sign(toward[axis]), route)
             tube(wall, THIN, PALEST)
     for n, (_, colour, veil) in enumerate(result.veils):
         grid = np.moveaxis(share(veil.points).reshape(veil.rows, veil.columns, 3), 2, 0)

@@ -43,7 +43,8 @@ def write(case: Any, result: Chaos, out: str | Path) -> Path | str:
             _over_time(ax, case, result)
             return style.save(figure, target)
         if phase_plane.repeats(item):
-            return style.save(phase_plane.section(item).figure, target)
+            rings: Any = phase_plane.section(item).figure
+            return style.save(rings, target)
         figure, (left, right) = plt.subplots(1, 2, figsize=SIZE, layout="constrained")
         phase_plane.section(item, ax=left, neighbours=NEIGHBOURS)
         _map(figure, right, left, item, float(result.times[-1]) / SHORTER)

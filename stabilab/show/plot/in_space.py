@@ -361,8 +361,9 @@ def draw(ax: Axes3D, result: Space) -> None:
     lines = [part for points in result.lines for part in (inside(box, per * np.array(points)), gap)]
     path = np.concatenate(lines[:-1]) if lines else np.empty((0, 3))
     for colour in dict.fromkeys(colour for _, colour, _ in result.veils):
-        grids = [np.reshape(x.points, (x.rows, x.columns, 3)) for _, of, x in result.veils if of == colour]
-        veil(ax, clipped(box, per * np.concatenate([grid_triangles(points) for points in grids])), colour)
+        parts = [grid_triangles(np.reshape(x.points, (x.rows, x.columns, 3)))
+                 for _, of, x in result.veils if of == colour]
+        veil(ax, clipped(box, per * np.concatenate(parts)), colour)
     depth(ax, box, path, [per * np.array(at) for _, at in result.marks], result.view)
     slim = SLIM if not result.times and often(result.path) > CLOSE / 2 else {}
     line(ax, path, style.MEANING["this motion"] | slim, zorder=8)

@@ -128,11 +128,11 @@ def _turn_lengths(item: Subject, t: np.ndarray, omega: np.ndarray) -> Callable[[
         rows = [np.linspace(a, a + length, PROBED) for a in starts]
         followed, states = along(item, np.unique(np.concatenate(rows)), t[::10])
         parts = [states[(followed >= row[0]) & (followed <= row[-1])] for row in rows]
-        turns = [often(part.tolist()) if len(part) > 2 else 0 for part in parts]
-        for n, count in enumerate(turns):
+        counted = [often(part.tolist()) if len(part) > 2 else 0 for part in parts]
+        for n, count in enumerate(counted):
             if 1 < count <= PROBED / FEW:
                 lengths[n] = length / count
-        if max(turns) <= PROBED / FEW:
+        if max(counted) <= PROBED / FEW:
             break
         length /= CUT
     return lambda at: float(np.interp(at, starts, lengths))
