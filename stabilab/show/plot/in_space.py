@@ -128,6 +128,7 @@ def veil(ax: Axes3D, triangles: np.ndarray, colour: str) -> None:
                              linewidths=0, antialiaseds=False, rasterized=True, zorder=4)
     # as a whole: facets that are each seen through would be seen twice where they meet
     drawn.set_agg_filter(lambda image, dpi: (image * (1.0, 1.0, 1.0, SHEER[colour]), 0, 0))
+    drawn.set_gid(colour)
     ax.add_collection3d(drawn)
 
 
@@ -136,7 +137,7 @@ def _lit(triangles: np.ndarray, colour: Sequence[float]):
     across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     size = np.linalg.norm(across, axis=1, keepdims=True)
     across = np.divide(across, size, out=np.tile(LIGHT, (len(across), 1)), where=size > 0)
-    return (DARKEST + (1 - DARKEST) * np.abs(across @ LIGHT))[:, None] * np.array(colour)
+    return np.minimum((DARKEST + (1 - DARKEST) * np.abs(across @ LIGHT))[:, None] * np.array(colour), 1.0)
 
 
 def polygon(ax: Any, rim: np.ndarray, colour: str, alpha: float) -> None:
@@ -400,9 +401,11 @@ def marker(text: str) -> Look:
 
 def rows(result: Space) -> list[tuple[str, Look]]:
     """Rows of a legend: words and look."""
-    surfaces = {branch.name for _, branch in result.branches} | {name for name, *_ in result.veils}
+    surfaces = {branch.name for _, branch in result.branches}
+    veils = {name for name, *_ in result.veils}
     curves = {text for text, _ in result.curves} | {"this motion"}
     return [(key, {"facecolor": pale(colour)} if key in surfaces
+             else {"facecolor": colour, "alpha": SHEER[colour]} if key in veils
              else look(key) if key in curves else marker(key))
             for key, colour in result.legend.items()]
 
