@@ -5,8 +5,8 @@ from __future__ import annotations
 from ...orbit.result import Fate, Motion
 from ..space import limit_time, spin_up_time
 
-LIMIT, CROSSES, OVER, SETTLES, CERTAIN = ("limit", "separatrix crossed", "turning over", "at its end",
-                                          "spin-up certain")
+LIMIT, CROSSES, OVER, CERTAIN = "limit", "separatrix crossed", "turning over", "spin-up certain"
+SETTLES, TENTH = "settled", "a tenth left"
 
 
 def moment(motion: Motion) -> tuple[float, str] | None:
@@ -20,8 +20,10 @@ def moment(motion: Motion) -> tuple[float, str] | None:
             return float(crosses), CROSSES
         if leaves is not None and settles is not None:
             return (leaves + settles) / 2, OVER
-        if settles is not None or tenth is not None:
-            return float(tenth if settles is None else settles), SETTLES
+        if settles is not None:
+            return float(settles), SETTLES
+        if tenth is not None:
+            return float(tenth), TENTH
     if motion.fate is Fate.SPIN_UP and (certain := spin_up_time(motion)) > 0:
         return certain, CERTAIN
     return None
