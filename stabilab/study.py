@@ -189,6 +189,18 @@ class Burning(read.Burning):
         from .answers.stuck.burn import burn
         return burn(self, stop, below)
 
+    def percentiles(self, samples: int = 1000, seed: int = 1, *, rate: Amount | None = None,
+                    component: str | None = None, energy: Amount | None = None, tilt: str | None = None,
+                    until: Amount | None = None, below: Amount | None = None, nutation: str | None = None,
+                    nutation_below: str | None = None, largest: bool = True, stop: Amount | None = None,
+                    closing_below: Amount | None = None, workers: int | None = None) -> Percentiles:
+        """Percentiles over the uncertain numbers: see `stabilab.percentiles`; stop: all thrusters close then;
+        closing_below: rad/s, asks for the latest closing time that keeps |omega| below it for ever."""
+        from .maps.percentiles import percentiles
+        return percentiles(self, samples, seed, rate=rate, component=component, energy=energy, tilt=tilt,
+                           until=until, below=below, nutation=nutation, nutation_below=nutation_below,
+                           largest=largest, workers=workers, stop=stop, closing_below=closing_below)
+
     def simulate(self, times: ArrayLike | None = None, attitude: str | None = None) -> Simulation:
         """The motion at the given times, over all switches: see `stabilab.simulate`; attitude: as there."""
         from .answers.stuck.chain import simulate_burn

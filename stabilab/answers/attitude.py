@@ -52,6 +52,7 @@ from ..orbit.period import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs
 from ..physics.scene import AnyScene, Scene
+from ..physics.symmetric_top import top_rates
 from ..reasons import Sentence, as_reason
 from .attitude_result import (
     LONG,
@@ -77,8 +78,13 @@ ON_VERTICAL = Sentence("top-on-vertical", "the axis stands on the vertical")()
 TO_AND_FRO = Sentence(
     "top-nutates", "the lean goes to and fro between two roots of Lagrange's cubic")()
 STEADY_LEAN = Sentence("top-precesses-steadily", "the axis keeps its lean and precesses about the vertical")()
+NEARLY_STEADY = Sentence(
+    "top-precesses-steadily-nearly", "the axis keeps its lean, but for what the rounding of its start to "
+    "doubles adds, and precesses about the vertical")()
 TO_VERTICAL = Sentence(
     "top-tends-to-vertical", "the axis comes ever closer to the vertical and does not come back")()
+
+ROUNDED = 1e-13  # rad, of a lean: less comes of rounding
 
 
 def axis_of_top(scene: Any) -> int | None:
@@ -98,6 +104,7 @@ def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, d
            ) -> Attitude:
     """base: what is known at the start, three rates and the vertical; digits: of the periods."""
     top = _Top(scene, axis, start)
+    base = replace(base, top=top_rates(scene, start))
     if top.vertical:
         return replace(steady(base, start[:3], digits), reason=ON_VERTICAL)
     balls: list[Any] = settled(
@@ -106,7 +113,10 @@ def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, d
     smallest, greatest, nutation, precession = balls
     if smallest is None and not top.steady:
         return replace(base, mode=SEPARATRIX, reason=TO_VERTICAL)
-    reason = (STEADY_LEAN if top.steady else TO_AND_FRO).then(UPRIGHT if precession is None else None)
+    nearly = nutation is not None and float(greatest - smallest) < ROUNDED
+    steadily = STEADY_LEAN if top.steady else NEARLY_STEADY if nearly else TO_AND_FRO
+    reason = steadily.then(UPRIGHT if precession is None else None)
+    nutation = None if nearly else nutation
     result = replace(base, mode=TOP, lean=(float(smallest.mid()), float(greatest.mid())),
                     reason=reason)
     return with_periods(result, {"nutation_period": nutation, "precession_period": precession}, digits)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..numbers.balls import START_BITS, Unclear, settled
 from ..numbers.vectors import Float3, dot
 from ..orbit.result import Fate
+from ..physics.symmetric_top import TopRates
 from ..reasons import Reasoned, Sentence
 from ..representation import Answer
 
@@ -33,7 +34,8 @@ class Attitude(Answer, Reasoned):
     between the axis, in the direction that is nearer, and the angular momentum over all time, rad. Of a
     heavy top precession_period is that of its axis about the vertical; lean: (least, greatest) angle between
     the upward vertical and the direction from its fixed point to its centre of mass, rad; nutation_period:
-    from one least lean to the next, s.
+    from one least lean to the next, s; top: its rates of steady precession at the lean of the start, and the
+    spins at which it stays upright.
     turn_angle (rad, 0 to pi), turn_axis: the rotation that takes the attitude at the start to that one
     rotation period later; the axis is the same in body and space. What the motion does not have is None,
     and `reason` says why. error: relative, of the periods and the turn.
@@ -55,6 +57,7 @@ class Attitude(Answer, Reasoned):
     turn_axis: Float3 | None = None
     error: float | None = None
     decimals: Mapping[str, str] | None = None
+    top: TopRates | None = None
 
 
 BODY_AT_REST = Sentence("body-at-rest", "the body is at rest")()

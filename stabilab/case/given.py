@@ -44,7 +44,7 @@ Span: TypeAlias = "Amount | Sequence[Amount]"  # (from, to), or the end
 FRAMES = ("principal", "file")
 UNITS = {"omega": RATE, "x": NONE, "gamma": NONE, "attitude": ANGLE, "velocity": VELOCITY,
          "position": LENGTH, "damper": RATE, "wheel": MOMENTUM, "damper_wheel": RATE,
-         "damper_mass": NONE}  # of the blocks of a state
+         "sprung_wheel": NONE, "damper_mass": NONE}  # of the blocks of a state
 
 
 def as_case(supplied: Given, state: Start | None = None, span: Span | None = None,

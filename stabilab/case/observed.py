@@ -1,4 +1,5 @@
-"""[motion] as it is observed: the periods of a tumbling body, or spin and nutation, in place of rates."""
+"""[motion] as it is observed: the periods of a tumbling body, spin and nutation, or spin and lean of a top
+that precesses steadily, in place of rates."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -6,14 +7,15 @@ from fractions import Fraction
 from typing import Any
 
 from ..errors import InputError
-from ..numbers.exact import floats, unit_vector
+from ..numbers.exact import floats, precise, unit_vector
 from ..numbers.principal import PrincipalAxes
 from ..numbers.units import pi
 from ..numbers.vectors import Exact3
 from ..physics.observed_start import MODES, spinning, tumbling
 from ..physics.scene import Scene
+from ..physics.symmetric_top import FAST, SLOW, SymmetricTop
 from ..reasons import Reason, Sentence
-from .table import OBSERVED, SPINNING, TUMBLING, Table, described
+from .table import LEANING, OBSERVED, SPINNING, TUMBLING, Table, described
 
 PERIODS = TUMBLING[:3]
 AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
@@ -27,6 +29,8 @@ def observed_key(table: Table, state_key: str | None) -> str | None:
     """The first key of [motion] by which the start is stated as observed, None where it is not; a fault where
     it is stated in two ways, or by half."""
     tumbles = [key for key in TUMBLING if key in table]
+    if any(key in table for key in LEANING):
+        return _leaning_key(table, state_key, tumbles)
     spins = [key for key in SPINNING if key in table]
     starts = [keys[0] for keys in ([state_key] if state_key else [], tumbles, spins) if keys]
     if len(starts) > 1:
@@ -49,6 +53,26 @@ def observed_key(table: Table, state_key: str | None) -> str | None:
     return "spin" if spins else None
 
 
+def _leaning_key(table: Table, state_key: str | None, tumbles: list[str]) -> str | None:
+    """The same of a top that precesses steadily."""
+    others = [key for key in (state_key, *tumbles, "nutation", "vertical", "attitude")
+              if key and key in table]
+    if others:
+        table.fault(f"lean and {others[0]} say the start in two ways: keep one of them", others[0])
+        return None
+    if "axis" in table:
+        table.fault("the spin of a top is about its axis of symmetry, from its fixed point to its centre of "
+                    "mass: take axis away", "axis")
+        return None
+    missing = [f"{key} = {example}" for key, example in (
+        ("lean", '"20 deg"'), ("spin", '"25 rev/s"'), ("precession", '"slow" or "fast"')) if key not in table]
+    if missing:
+        table.fault(f"a top precesses steadily with a spin, at a lean: give {' and '.join(missing)} as well",
+                    next(key for key in LEANING if key in table))
+        return None
+    return "lean"
+
+
 def with_observed(motion: Any, scene: Scene | None, frame: PrincipalAxes | None
                   ) -> tuple[Any, tuple[Reason, ...]]:
     """([motion] with the rates of an observed start, in the frame of the file; what was taken for granted).
@@ -56,13 +80,18 @@ def with_observed(motion: Any, scene: Scene | None, frame: PrincipalAxes | None
     table, key = motion.table, motion.state_key
     if key not in OBSERVED:
         return motion, ()
-    query = _tumbling(table) if key in TUMBLING else _spinning(table)
+    query = _tumbling(table) if key in TUMBLING else _leaning(table) if key in LEANING else _spinning(table)
     if query is None or scene is None:
         return motion, ()
     oblique = None if frame is None or frame.as_given else frame
+    back = oblique.back if oblique else lambda vector: vector
     try:
+        if key in LEANING:
+            rates, vertical = map(back, _leans(scene, oblique, *query))
+            return replace(motion, exact=rates, state=floats(rates), exact_vertical=vertical,
+                           blocks=motion.blocks | {"gamma": floats(vertical)}), ()
         rates, taken = (_tumbles if key in TUMBLING else _spins)(scene, oblique, *query)
-        exact = oblique.back(rates) if oblique else rates
+        exact = back(rates)
         return replace(motion, exact=exact, state=floats(exact)), taken
     except InputError as error:
         name, colon, rest = str(error).partition(": ")
@@ -103,6 +132,22 @@ def _spinning(table: Table) -> tuple | None:
     return axis, spin, nutation, towards
 
 
+def _leaning(table: Table) -> tuple | None:
+    """(spin, lean, precession, towards or None); None with a fault."""
+    spin, lean, which = table.number("spin"), table.number("lean"), table.text("precession")
+    towards = _direction(table, "towards")
+    if lean is not None and not 0 < lean < pi():
+        table.fault("expected an angle between 0 and 180 deg, both left out, from the upward vertical to the "
+                    f"axis, got {_degrees(lean)}; on the vertical a top has no precession: give "
+                    "angular_velocity and vertical there", "lean")
+        return None
+    if which not in (SLOW, FAST):
+        table.fault(f'expected "slow" or "fast", got {described(table.data["precession"])}', "precession")
+        return None
+    return None if spin is None or lean is None or ("towards" in table and towards is None) else (
+        spin, lean, which, towards)
+
+
 def _degrees(angle: Fraction) -> str:
     return f"{float(angle * 180 / pi()):.10g} deg"
 
@@ -136,10 +181,24 @@ def _spins(scene: Scene, frame: PrincipalAxes | None, axis: Exact3, spin: Fracti
     return rates, () if towards or not nutation else (LEANS(axis="xyz"[default]),)
 
 
+def _leans(scene: Scene, frame: PrincipalAxes | None, spin: Fraction, lean: Fraction, which: str,
+           towards: Exact3 | None) -> tuple[Exact3, Exact3]:
+    top = SymmetricTop.of(scene)
+    if top is None:
+        raise InputError("lean: a start by lean, spin and precession is that of a symmetric top, which its "
+                         "weight, a Newtonian centre or a charge that follows the attitude act on along its "
+                         "axis of symmetry alone; this is none: give angular_velocity and vertical")
+    turn = frame.turned if frame else lambda vector: vector
+    default = AXES[(top.axis + 1) % 3]
+    return top.start(spin, precise("cos", lean), which, turn(towards) if towards else default)
+
+
 def plainly(case: Any, motion: dict[str, Any], text: Any) -> dict[str, Any]:
     """The table [motion] of a case, with the rates of an observed start as numbers; text: writes one."""
     if not case.observed:
         return motion
     rates = [text(v) for v in case.exact_state]
-    return {key: value for key, value in motion.items() if key not in OBSERVED} | {"angular_velocity": rates}
+    vertical = {"vertical": [text(Fraction(v)) for v in case.blocks["gamma"]]} if "lean" in motion else {}
+    return {key: value for key, value in motion.items()
+            if key not in OBSERVED} | {"angular_velocity": rates} | vertical
 

@@ -65,7 +65,8 @@ SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is 
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
-          "damper": "damper", "wheel": "wheel", "damper_wheel": "damper_wheel", "damper_mass": "damper_mass"}
+          "damper": "damper", "wheel": "wheel", "damper_wheel": "damper_wheel",
+          "sprung_wheel": "sprung_wheel", "damper_mass": "damper_mass"}
 OBSERVED_KEYS = frozenset(OBSERVED)
 TURNED_BACK = Fraction(1, 10**15)
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
@@ -118,7 +119,8 @@ class Case:
     to read answers (empty where the file does not say); swept: (key, value as written) of every key of
     [sweep].
     caveats: what the file itself says that limits every answer. observed: whether the start is stated by
-    periods, or by spin and nutation, from which the state was found. correlations: of uncertain numbers.
+    periods, or by spin and nutation or lean, from which the state was found. correlations: of uncertain
+    numbers.
     """
 
     path: str = field(compare=False)
@@ -271,11 +273,14 @@ def text_of_case(case: Case) -> str:
     combination of a [sweep], of a case with another motion and of a scene the numbers alone."""
     if not case.text:
         return text_of(_data_of(case))
-    if not case.variant and case == replace(read_text(case.path, case.text), swept=case.swept):
+    def is_read(found: Case) -> bool:
+        """Whether it is the case, but for what a question adds to one."""
+        return case == replace(found, swept=case.swept, caveats=case.caveats)
+    if not case.variant and is_read(read_text(case.path, case.text)):
         return case.text
     top = Table((), *parsed(case.path, case.text))
     data = dict(combinations(top)).get(case.variant, top.data)
-    if case == replace(_built(case.path, case.text, data, top.faults, case.variant), swept=case.swept):
+    if is_read(_built(case.path, case.text, data, top.faults, case.variant)):
         return text_of(data)
     return text_of(plain({"title": case.title, "source": case.source}) | _data_of(case))
 
@@ -309,9 +314,9 @@ class Burning:
         return segments([thruster.burn for thruster in self.craft.thrusters], until)
 
 
-def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
-    """Whether a thruster of this case file has a start, stop, pulses or propellant."""
-    *_, data, faults = _read(path)
+def fires_on_schedule(given: str | os.PathLike[str] | Mapping[str, Any]) -> bool:
+    """Whether a thruster of this case file, text or dict has a start, stop, pulses or propellant."""
+    *_, data, faults = _stated(given, "load_burning")
     return bool(_scheduled(data, faults))
 
 
@@ -320,9 +325,14 @@ def load_burning(given: Any) -> Burning:
     (start, stop, period, duty, on_time, profile, propellant, mass_flow), for `burn`. Where none does, the
     stuck ones fire from 0 on. Raises CaseError as `load` does."""
     path, text, data, faults = _stated(given, "load_burning")
-    if not _scheduled(data, faults) and isinstance(declared := data.get("thrusters"), list):
-        data = data | {"thrusters": [_from_start(item) for item in declared]}
-    return Burning(_built(path, text, data, faults, burning=True))
+    return Burning(_built(path, text, _firing(data, faults), faults, burning=True))
+
+
+def _firing(data: dict, faults: Faults) -> dict:
+    """Where no thruster has a schedule, the stuck ones fire from 0 on."""
+    declared = data.get("thrusters")
+    return data if _scheduled(data, faults) or not isinstance(declared, list) else (
+        data | {"thrusters": [_from_start(item) for item in declared]})
 
 
 def _from_start(thruster: Any) -> Any:
@@ -431,11 +441,13 @@ def read_text(path: str | Path, text: str) -> Case:
     return _built(path := os.fspath(path), text, *parsed(path, text))
 
 
-def with_data(path: str, text: str, data: dict) -> Case:
+def with_data(path: str, text: str, data: dict, burning: bool = False) -> Case:
     """The case in TOML data that is the text's but for numbers that were put in; its faults are
-    reported as of the text. Numbers that were put in are certain, so that correlations are left out."""
+    reported as of the text. Numbers that were put in are certain, so that correlations are left out.
+    burning: as of `load_burning`, the craft alone."""
     data = {key: value for key, value in data.items() if key != "correlations"}
-    return _built(path, text, data, Faults(key_lines(text)))
+    faults = Faults(key_lines(text))
+    return _built(path, text, _firing(data, faults) if burning else data, faults, burning=burning)
 
 
 def _read(path: str | os.PathLike[str]):
@@ -707,6 +719,13 @@ def _judge_blocks(motion: _Motion, scene):
     if "damper" in supplied and scene is not None and "damper" not in scene.blocks:
         table.fault("no damper turns in this body: give [effects.viscous_damper], or take the key away",
                     "damper")
+    if "sprung_wheel" in supplied and scene is not None and "sprung_wheel" not in scene.blocks:
+        table.fault("no damper wheel is on a spring in this body: give [effects.damper_wheel] a stiffness, "
+                    "or take the key away", "sprung_wheel")
+    if "damper_wheel" in supplied and scene is not None and "sprung_wheel" in scene.blocks:
+        table.fault("the damper wheel is on a spring: give its angle and its rate, sprung_wheel = [0, 0.5]",
+                    "damper_wheel")
+        return
     for key in ("damper_wheel", "damper_mass"):
         if key in supplied and scene is not None and key not in scene.blocks:
             table.fault(f"no {effect_words(key)} is in this body: give [effects.{key}], or take the key away",
@@ -717,7 +736,8 @@ def _judge_blocks(motion: _Motion, scene):
     if "wheel" in supplied and (text := next((said for item in getattr(scene, "effects", ())
                                             if (said := item.refuses({"wheel": supplied["wheel"]}))), "")):
         table.fault(text.removeprefix("wheel: "), "wheel")
-    if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in supplied:
+    if (motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in supplied
+            and "lean" not in table):
         angles = supplied.get("attitude")
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
                 else "")

@@ -17,6 +17,7 @@ from ..errors import InputError, Problem, printable
 from ..numbers.exact import exact
 from ..numbers.units import dimension_of, quantity, unit_of_key
 from ..numbers.vectors import Exact3
+from ..physics.effects import REGISTRY, effect_class
 from .aliases import (
     cure_of_key,
     cure_of_number,
@@ -37,30 +38,38 @@ class Written(str):
     """A number with a point or an exponent as it stands in the file, so that 0.1 means one tenth exactly."""
 
 
-# The keys whose numbers may be uncertain, by their tables. Directions and what is chosen, as a span or a
-# limit, are none of them; the force of a thruster is read with its tolerance.
+# The keys whose numbers may be uncertain, by their tables; those of effects are `Effect.keys`, but for
+# `Effect.certain`. Directions and what is chosen, as a span or a limit, are none of them; the force of a
+# thruster is read with its tolerance.
 UNCERTAIN_KEYS = {
     ("body",): ("inertia", "mass"), ("body", "products"): ("xy", "xz", "yz"), ("scaled",): ("a", "b", "mu"),
     ("wheels",): ("momentum", "inertia", "speed"),
     ("motion",): ("angular_velocity", "x", "rotation_period", "precession_period", "amplitude", "spin",
-                  "nutation"),
-    ("circular_orbit",): ("rate", "period", "altitude", "radius"),
-    **{("effects", name): keys for name, keys in {
-        "gyrostat": ("momentum",), "constant_torque": ("torque", "mu"),
-        "viscous_damper": ("inertia", "coefficient"), "damper_wheel": ("inertia", "coefficient"),
-        "damper_mass": ("mass", "stiffness", "coefficient"), "rate_damper": ("coefficient",),
-        "resistance": ("coefficient",),
-        "eddy_currents": ("coefficient", "field"), "liquid_cavity": ("density", "viscosity", "P0", "radius"),
-        "gravity": ("weight", "centre_of_mass"), "newtonian_field": ("strength", "lambda", "R"),
-        "charge": ("charge", "field", "arm", "angle"), "body_force": ("force",),
-        "wheel_motor": ("torque", "duration")}.items()}}
-UNCERTAIN = {(*table, key) for table, keys in UNCERTAIN_KEYS.items() for key in keys}
+                  "nutation", "lean"),
+    ("circular_orbit",): ("rate", "period", "altitude", "radius")}
 
 
-# Keys of [motion] by which a start is stated as it is observed (`observed`): of a tumbling body, of a spin
+def may_be_uncertain(table: tuple[str, ...], key: str) -> bool:
+    """Whether the numbers of a key may be uncertain. table: its path, without numbers of tables in a list."""
+    if table[:1] == ("effects",):
+        cls = effect_class(table[-1])
+        return key in cls.keys and key not in cls.certain
+    return key in UNCERTAIN_KEYS.get(table, ())
+
+
+def uncertain_keys() -> set[tuple[str, ...]]:
+    """The paths of all these keys."""
+    effects = {("effects", name, key) for name in REGISTRY for key in effect_class(name).keys
+               if may_be_uncertain(("effects", name), key)}
+    return effects | {(*table, key) for table, keys in UNCERTAIN_KEYS.items() for key in keys}
+
+
+# Keys of [motion] by which a start is stated as it is observed (`observed`): of a tumbling body, of a spin,
+# of a top that precesses steadily
 TUMBLING = ("rotation_period", "precession_period", "amplitude", "mode")
 SPINNING = ("spin", "axis", "nutation", "towards")
-OBSERVED = TUMBLING + SPINNING
+LEANING = ("lean", "precession")
+OBSERVED = TUMBLING + SPINNING + LEANING
 
 
 HOMES = {word: home for home, value in {
@@ -282,11 +291,11 @@ class Table:
 
     def _middle(self, text: str, keys: tuple[str, int]) -> Fraction:
         """The middle of an uncertain number, which is noted."""
-        place = tuple(part for part in self.path + keys[:1] if isinstance(part, str))
+        tables = tuple(part for part in self.path if isinstance(part, str))
         if len(keys) > 2:
             raise InputError(f"takes no uncertainty in a row of a tensor, got {described(text)}: write the "
                              "three moments as inertia, and the products of inertia as [body] products")
-        if place not in UNCERTAIN:
+        if not may_be_uncertain(tables, keys[0]):
             raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in moments and "
                              "products of inertia, mass, momentum, torque and speed, in the numbers of "
                              "effects, in what [motion] says of rates and periods, in a, b, mu and in the "

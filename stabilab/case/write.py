@@ -95,6 +95,7 @@ def _value(value: Any) -> str:
 STATES = {"omega": "angular_velocity", "x": "x", "gamma": "vertical", "attitude": "attitude",
           "velocity": "velocity", "position": "position",
           "damper": "damper", "wheel": "wheel", "damper_wheel": "damper_wheel",
+          "sprung_wheel": "sprung_wheel",
           "damper_mass": "damper_mass"}  # block of a state: its key in [motion]
 
 

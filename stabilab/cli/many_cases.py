@@ -124,7 +124,7 @@ def bifurcation(
         case: CaseFile,
         vary: Annotated[list[str] | None, option("KEY=FROM:TO",
             'A number that varies: "torque[3]=0:0.5", "wheels.pitch.speed=-3000:3000 rpm". One or '
-            "two.")] = None,
+            "two; of a symmetric top its spin, its weight or the momentum of a wheel.")] = None,
         curve: Annotated[bool, flag("--curve",
             "For a torque on a principal axis: find where stability changes along the whole curve of "
             "equilibria, independent of the motion.")] = False,

@@ -166,6 +166,7 @@ def burn(
             "TIME", 'Close all thrusters at this time: "12 s". Default: as the file says.')] = None,
         below: Annotated[str | None, option(
             "RATE", 'Find the latest closing time that keeps |ω| below this for ever: "30 deg/s".')] = None,
+        samples: Draws = None, seed: Seed = 1, workers: Workers = None,
         units: UnitsOption = None, json: Json = False, strict: StrictFate = False):
     """Give the motion after a burn, and the latest closing time.
 

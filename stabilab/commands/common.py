@@ -134,12 +134,14 @@ def _time(text: str, case: Case, option: str) -> Fraction:
 
 # --- Percentiles over the uncertain numbers of a case
 def drawn(samples: int | None, seed: int, workers: int | None, timed: Callable[[Case], bool], largest: bool,
-          **limits: str | None) -> Callable[[Case], Any] | None:
+          each: bool = False, **limits: str | None) -> Callable[[Case], Any] | None:
     """What finds them, None where no samples are asked for. timed: whether those of the time to the limit are
-    asked of a case; largest: whether those of its largest rate are."""
+    asked of a case; largest: whether those of its largest rate are; each: of each thruster alone."""
     if samples is None:
         return None
-    from ..maps.percentiles import of_case_drawn
+    from ..maps.percentiles import of_case_drawn, of_each_thruster
+    if each:
+        return lambda case: of_each_thruster(case, samples, seed, workers)
     return lambda case: of_case_drawn(case, samples, seed, workers, timed(case), largest, **limits)
 
 

@@ -6,6 +6,7 @@ from ..maps.atlas import asked, drawn
 from ..maps.basins import basins
 from ..maps.bifurcation.ask import bifurcation as ask
 from ..maps.bifurcation.diagram import certifiable, diagram_certificate
+from ..maps.bifurcation.tops import TopDiagram
 from ..maps.plan import split_keys
 from ..show import certification, endings
 from ..show.maps import atlas as atlas_shown
@@ -14,6 +15,7 @@ from ..show.maps import bifurcation as diagram_shown
 from ..show.maps import bifurcation_picture
 from ..show.maps import rotations as rotations_shown
 from ..show.maps import to_file as map_files
+from ..show.maps import tops as tops_shown
 from ..show.terminal import say
 from ..show.units import units_of
 from .writing import of_map, say_written, write_answer
@@ -36,6 +38,12 @@ def bifurcation(case, vary, curve, momentum, spin, out, certify, csv, json):
         say_written([rotations_shown.write(result, out)] if out else [])
         return
     result = ask(case, spans, curve)
+    if isinstance(result, TopDiagram):
+        if certify:
+            raise InputError("--certify: no certificate is known of the steady motions of a top")
+        write_answer(tops_shown, result, json, csv)
+        say_written([tops_shown.write(result, out)] if out else [])
+        return
     made = diagram_certificate(result) if certify else None
     files = [bifurcation_picture.write(result, out)] if out else []
     write_answer(diagram_shown, result, json, csv)

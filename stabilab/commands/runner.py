@@ -55,7 +55,7 @@ class View:
 @dataclass(frozen=True)
 class Answered:
     """A case, what was found of it, and what limits that; draws: `Percentiles` over its uncertain numbers,
-    where these were asked for."""
+    where these were asked for, of each thruster where each was."""
 
     case: Case
     found: tuple[Any, ...]
@@ -63,7 +63,7 @@ class Answered:
     law: Any
     caveats: tuple[Caveat, ...]
     box: Any = None
-    draws: Any = None
+    draws: tuple[Any, ...] = ()
 
 
 def every(objects: list[dict[str, Any]]) -> Any:
@@ -90,7 +90,7 @@ def with_draws(rows: list[Answered], drawn: Callable[[Case], Any] | None) -> lis
     """With the percentiles of each case, where they are asked for."""
     if drawn is None:
         return rows
-    return [replace(row, draws=result)
+    return [replace(row, draws=result if isinstance(result, tuple) else (result,))
             for row, (_, result) in zip(rows, answers_of([row.case for row in rows], drawn))]
 
 
@@ -149,13 +149,14 @@ def _object(view: View, row: Answered) -> dict[str, Any]:
             | (frame.key(row.case) if view.axes else {})
             | (headline.key(row.law) if view.law else {})
             | (classification.uncertain_dict(row.box) if view.boxes else {})
-            | (percentiles.as_dict(row.case, row.draws) if row.draws else {}))
+            | percentiles.as_dict(row.case, row.draws))
 
 
 def _csv(view: View, rows: list[Answered]) -> str:
     if any(row.draws for row in rows):
-        return limiting.table(percentiles.COLUMNS, [(row.case, row.caveats, percentiles.lines(row.draws))
-                                                    for row in rows])
+        return limiting.table(percentiles.COLUMNS, [
+            (row.case, row.caveats, [line for item in row.draws for line in percentiles.lines(item)])
+            for row in rows])
     head, lines = view.csv
     return limiting.table(head, [(row.case, row.caveats, lines(row.case, *row.found)) for row in rows])
 
@@ -184,7 +185,7 @@ def _part(view: View, rows: list[Answered], tabled: bool) -> str:
                             list(dict.fromkeys(_shown(view, rows, full, below))))
     return (classification.in_short(None if full else first.box, answer, outcome)
             + "".join(dict.fromkeys(below))
-            + "".join("\n" + percentiles.text(row.draws, row.units) for row in rows if row.draws))
+            + "".join("\n" + percentiles.text(item, row.units) for row in rows for item in row.draws))
 
 
 def _shown(view: View, rows: list[Answered], full: bool, below: list[str]) -> Iterator[Caveat]:

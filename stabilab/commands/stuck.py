@@ -23,6 +23,7 @@ from ..answers.when import limited_time
 from ..case.limit_options import OPTIONS, stated_limit
 from ..case.read import fires_on_schedule, load_burning, load_orbiting
 from ..errors import InputError
+from ..maps.percentiles import of_burn_drawn
 from ..numbers.units import ANGLE, MOMENTUM, RATE, TIME, in_si
 from ..show.maps import bifurcation_picture
 from ..show.progress import told
@@ -56,9 +57,6 @@ ORBIT = View(text=circular_orbit_text, data=circular_orbit_dict,
 
 def stuck(case, all_thrusters, units, why, out, json, csv, strict, samples=None, seed=1, workers=None):
     """Answer a case, every combination where it has a [sweep]."""
-    if samples is not None and all_thrusters:
-        raise InputError("--samples: percentiles are those of the thrusters that are stuck together; leave "
-                         "out --all-thrusters")
     loaded = load_cases([case], motion=True)
     loaded = list(map(each_firing, loaded)) if all_thrusters else loaded
     view = replace(STUCK, swept=None) if all_thrusters or why else STUCK
@@ -67,16 +65,18 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict, samples=None,
         with told() as tell:
             return ask(item, all_thrusters, tell, workers=workers)
     run(view, loaded, asked, units=units, out=out, json=json, csv=csv, strict=strict,
-        drawn=drawn(samples, seed, workers, lambda item: item.limits is not None, True))
+        drawn=drawn(samples, seed, workers, lambda item: item.limits is not None, True, each=all_thrusters))
 
 
-def burn(case, stop, below, units, json, strict):
+def burn(case, stop, below, units, json, strict, samples=None, seed=1, workers=None):
     """Answer one case."""
     burning = load_burning(case)
     query = {name: in_si(text.strip(), dimension, f"--{name}")
              for name, text, dimension in (("stop", stop, TIME), ("below", below, RATE)) if text is not None}
+    draws = None if samples is None else lambda craft: of_burn_drawn(
+        burning, samples, seed, workers, craft.limits is not None, True, stop, below)
     run(BURN, [burning.craft], lambda craft: left_by(burning, **query), units=units, json=json, strict=strict,
-        below=below)
+        drawn=draws, below=below)
 
 
 def when(cases, units, json, csv, strict, digits, samples=None, seed=1, workers=None, **limits):
@@ -96,12 +96,10 @@ def when(cases, units, json, csv, strict, digits, samples=None, seed=1, workers=
         if digits is not None:
             raise InputError(f"{case.path}: digits: a burn is followed in time: leave them out")
         return limit, time_of_burn(burns[case.path], limit.ask, limit.until)
-    if samples is not None and burns:
-        raise InputError(f"{next(iter(burns))}: --samples: percentiles are known of torques that stay, and "
-                         "thrusters of this case fire on a schedule: leave the samples out, or write stuck = "
-                         "true")
-    run(WHEN, loaded, asked, units=units, json=json, csv=csv, strict=strict,
-        drawn=drawn(samples, seed, workers, lambda item: True, False, **limits),
+    ordinary = drawn(samples, seed, workers, lambda item: True, False, **limits)
+    draws = ordinary and (lambda case: ordinary(case) if case.path not in burns else of_burn_drawn(
+        burns[case.path], samples, seed, workers, True, False, **limits))
+    run(WHEN, loaded, asked, units=units, json=json, csv=csv, strict=strict, drawn=draws,
         **{name: limits[name] for name in OPTIONS if name != "energy"})
 
 

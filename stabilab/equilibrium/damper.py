@@ -21,6 +21,7 @@ from ..physics.effects import effect_class
 from ..physics.equations import derive
 from ..physics.scene import Body, Scene
 from ..reasons import Reason, Sentence
+from .damper_mass import relaxed_equilibria
 from .liquid import THE_LIQUID, liquid_equilibria
 from .momentum_sphere import MINIMUM, MomentumSphere, nature_at
 from .result import (
@@ -76,7 +77,9 @@ def damped_equilibria(parts: Content) -> Equilibria:
     if any(parts.M) or parts.c or parts.damped or parts.kappa:
         return Equilibria("undecided", reason=DAMPER_FREE_ALONE)
     if parts.displaced:
-        return Equilibria("undecided", reason=MASS_DISPLACED)
+        alone = len(parts.movers) == 1 and not parts.inside
+        known = relaxed_equilibria(parts) if alone else None
+        return known if known and known.curves else Equilibria("undecided", reason=MASS_DISPLACED)
     if not parts.all_is_damped or parts.rest_of_moments <= 0:
         return Equilibria("undecided", reason=DAMPED_IN_PART)
     if any(parts.Lambda):

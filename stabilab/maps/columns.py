@@ -160,6 +160,28 @@ ANSWERS: dict[str, Answer] = {
                lambda result: result.lyapunov, lambda result: result.lyapunov,
                note="0 where regular, NaN where it is not known"))),
 }
+# of burns, whose draws are answered whole (`percentiles`); a sweep takes a torque that stays
+BURNS: dict[str, Answer] = {
+    "burn_when": Answer("burn", (0.02, 0.02), (
+        Column("when_low", "f8", TIME, "the limit is not reached before", lambda result: result.when[0],
+               lambda result: result.when[0], note="+inf: never"),
+        Column("when_high", "f8", TIME, "the limit is reached by", lambda result: result.when[1],
+               lambda result: result.when[1], note="+inf: never; NaN where that is not known"))),
+    "burn": Answer("burn", (0.05, 0.05), (
+        Column("fate", "i1", "", "what becomes of the motion after the last closing",
+               lambda result: result.fate, lambda result: result.fate, no_case=NO_CASE),
+        Column("largest", "f8", RATE, "largest |omega| over all time", lambda result: result.largest,
+               lambda result: result.largest, note=NOT_KNOWN),
+        Column("size", "f8", RATE, "|omega| at the start", lambda result: result.size,
+               lambda result: result.size))),
+    "closing": Answer("burn", (0.3, 0.3), (
+        Column("closing_low", "f8", TIME, "closed by then it stays below for ever",
+               lambda result: result.closing[0], lambda result: result.closing[0],
+               note="+inf: whenever it closes, 0: however early"),
+        Column("closing_high", "f8", TIME, "closed later it does not", lambda result: result.closing[1],
+               lambda result: result.closing[1], note="NaN where that is not known"))),
+}
+ALL = ANSWERS | BURNS
 # of every sweep, read off the numbers of a point's own case by `parts`
 CAVEATS = Column("caveats", "i1", "", "what limits the answer", lambda codes: codes, lambda codes: codes,
                  # those of a point, which its numbers make
@@ -188,7 +210,7 @@ def columns_of(answers: tuple[str, ...]) -> tuple[Column, ...]:
     """The columns of some answers."""
     # what says that a motion stays bounded, or never reaches a limit
     steady = {"fate", "when"} & set(answers)
-    return (VALID, *(column for name in answers for column in ANSWERS[name].columns),
+    return (VALID, *(column for name in answers for column in ALL[name].columns),
             *([CAVEATS] if steady else []))
 
 

@@ -33,7 +33,7 @@ from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from . import blocks
 from .axes import Key, with_values
-from .columns import ANSWERS, CAVEATS, Column, columns_of, record
+from .columns import ALL, CAVEATS, Column, columns_of, record
 from .plan import Chunk, Plan
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def case_of(plan: Plan, scene: int) -> Case:
         else:
             row = plan.sampled.values(at, at + 1)[0].tolist()
             values += zip(plan.sampled.keys, (Written(repr(value)) for value in row))
-    return with_data(plan.path, plan.text, with_values(plan.data, values))
+    return with_data(plan.path, plan.text, with_values(plan.data, values), plan.burn is not None)
 
 
 def states_of(plan: Plan, case: Case, low: int, high: int) -> np.ndarray:
@@ -115,7 +115,7 @@ def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
         states = np.empty((0, 3)) if case.state is None else states_of(plan, case, chunk.low, chunk.high)
         for module in dict.fromkeys(map(_filling, plan.answers)):
             own = [column for name in plan.answers if _filling(name) is module
-                   for column in ANSWERS[name].columns]
+                   for column in ALL[name].columns]
             _fill(module, plan, case, states, own, out)
             filled.update(column.name for column in own)
     if CAVEATS in columns:
@@ -127,7 +127,7 @@ def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
 
 def _filling(answer: str) -> Any:
     """The module that fills the columns of an answer."""
-    return import_module(f".filling.{ANSWERS[answer].module}", __package__)
+    return import_module(f".filling.{ALL[answer].module}", __package__)
 
 
 def _fill(module: ModuleType, plan: Plan, case: Case, states: np.ndarray, columns: Sequence[Column],

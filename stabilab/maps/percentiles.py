@@ -12,16 +12,23 @@ never reaches the limit has the time infinity, and one that is not known counts 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..answers.caveats import of_case
+from ..answers.stuck.burn import TORQUE_STAYS
+from ..answers.stuck.chain import Chain
 from ..case.given import Amount, Given, Span, Start, written
-from ..case.read import Case, text_of_case
+from ..case.read import Burning, Case, fires_on_schedule, load_burning, read_text, text_of_case
+from ..case.source import parsed
 from ..case.uncertain import TOLERANCE
+from ..case.write import text_of
 from ..errors import Caveat, InputError, Kind, printable, without
+from ..numbers.units import RATE, TIME, in_si
 from ..orbit.result import OUTCOMES, Fate
 from ..reasons import BROAD, Quantity, Sentence
 from ..representation import Answer, Compared
@@ -39,6 +46,7 @@ LEFT_OUT = Sentence("draws-left-out",
                     "draws that make no case and are left out: {number} of {draws}; {fault}")
 OPEN_DRAWS = Sentence("draws-not-known", "draws of which the {what} is not known: {number}; they count at "
                       "both ends of the bounds")
+OF_NONE = Sentence("draws-of-none", "nothing is drawn of {thrusters}: no number of theirs is uncertain")
 FROM_DRAWS = Sentence(
     "from-draws", "percentiles over the uncertain numbers by draws ({number}, seed {seed}), with bounds that "
     "hold with 95 % confidence; samples, no proof")
@@ -106,8 +114,11 @@ class Percentiles(Compared, Answer):
     name: of the case; number: of draws that make a case; draws: that were made; seed: of them; limit: that
     of the time, None without one; reached: name ("reached", "never", "unknown") -> share of the draws, of
     the limit; outcomes: word -> share, of the motion; time: to the limit, s; largest: |omega| at the most
-    over all time, rad/s, inf where it grows without end; each None, or empty, where it was not asked.
-    confidence: of all bounds; caveats: what limits them.
+    over all time, rad/s, inf where it grows without end; each None, or empty, where it was not asked. Of
+    thrusters that fire on a schedule the outcome is that after the last closing; closing: the latest closing
+    time that keeps |omega| below `below` (rad/s) for ever, s, inf where none is too late, 0 where all are.
+    thruster: that alone is stuck, "" where those are that the case says. confidence: of all bounds; caveats:
+    what limits them.
     """
 
     name: str
@@ -119,37 +130,67 @@ class Percentiles(Compared, Answer):
     outcomes: dict[str, Fraction95] = field(default_factory=dict)
     time: Distribution | None = None
     largest: Distribution | None = None
+    below: float | None = None
+    closing: Distribution | None = None
+    thruster: str = ""
     confidence: float = CONFIDENCE
 
 
-def percentiles(case: Given, samples: int = 1000, seed: int = 1, *, rate: Amount | None = None,
+def percentiles(case: Given | Burning, samples: int = 1000, seed: int = 1, *, rate: Amount | None = None,
                 component: str | None = None, energy: Amount | None = None, tilt: str | None = None,
                 until: Amount | None = None, below: Amount | None = None, nutation: str | None = None,
                 nutation_below: str | None = None, largest: bool = True, workers: int | None = None,
-                state: Start | None = None, span: Span | None = None) -> Percentiles:
+                state: Start | None = None, span: Span | None = None, stop: Amount | None = None,
+                closing_below: Amount | None = None, thruster: str | None = None) -> Percentiles:
     """Percentiles over the uncertain numbers of a case: of the time to a limit, of the largest rate, and the
     shares of outcomes.
 
     case: in any form, or a scene with `state` and `span`. samples, seed: as many draws. One limit as of
     `stabilab.when`; where none is given, that of [limits], if there is one. largest: whether outcomes and the
     largest rate are found too. workers: processes, None for one a core where that pays; the bytes are the
-    same. Raises InputError for a case without uncertain numbers or without a motion.
+    same. stop, closing_below: of a case whose thrusters fire on a schedule (what `load_burning` gives, or
+    its path), s and rad/s: all close then; also percentiles of the latest closing time that keeps |omega|
+    below that for ever. thruster: the name of the one that is stuck, alone. Raises InputError for a case
+    without uncertain numbers or without a motion.
     """
+    as_text = lambda value: (" = ".join(map(str, value)) if isinstance(value, (tuple, list)) else str(value))
+    options = {name: as_text(value) for name, value in (
+        ("rate", rate), ("component", component), ("energy", energy), ("tilt", tilt), ("until", until),
+        ("below", below), ("nutation", nutation), ("nutation_below", nutation_below)) if value is not None}
+    raw = isinstance(case, (str, PathLike, Mapping)) and state is None and span is None
+    if isinstance(case, Burning) or raw and fires_on_schedule(case):  # type: ignore[arg-type]
+        burning = case if isinstance(case, Burning) else load_burning(case)
+        last, for_ever = (None if value is None else as_text(value) for value in (stop, closing_below))
+        return of_burn_drawn(burning, samples, seed, workers,
+                             bool(options) or burning.craft.limits is not None, largest, last, for_ever,
+                             **options)
+    if stop is not None or closing_below is not None:
+        raise InputError("percentiles: stop and closing_below are of thrusters that fire on a schedule: give "
+                         "the path of such a case, or what stabilab.load_burning gives")
     source = written(case, state, span)
     path, text = place_and_text("percentiles", source)
     loaded = source if isinstance(source, Case) else None
-    text_of = lambda value: (" = ".join(map(str, value)) if isinstance(value, (tuple, list)) else str(value))
-    options = {name: text_of(value) for name, value in (
-        ("rate", rate), ("component", component), ("energy", energy), ("tilt", tilt), ("until", until),
-        ("below", below), ("nutation", nutation), ("nutation_below", nutation_below)) if value is not None}
     if loaded is not None and loaded.variant:
         text = text_of_case(loaded)
+    text = text if thruster is None else alone_stuck(path, text, thruster)
     plan = Plan(path, text, (), samples, seed, (), quick=True)
     timed = bool(options) or plan.case.limits is not None
     if not timed and not largest:
         raise InputError('percentiles: nothing to find: give a limit such as rate="30 deg/s", or '
                          "largest=True")
-    return of_plan(plan, timed, largest, workers, options)
+    return replace(of_plan(plan, timed, largest, workers, options), thruster=thruster or "")
+
+
+def alone_stuck(path: str, text: str, name: str) -> str:
+    """The text of a case of which this thruster alone is stuck. Raises InputError where it has none of this
+    name."""
+    case, data = read_text(path, text), parsed(path, text)[0]
+    names = [item.name for item in case.thrusters]
+    if name not in names:
+        raise InputError(f"thruster: the case has no thruster {printable(name)}; it has "
+                         f"{', '.join(map(printable, names)) or 'none'}")
+    data["thrusters"] = [{**table, "stuck": other == name} for table, other in zip(data["thrusters"], names)]
+    return text_of(data)
 
 
 def of_case_drawn(case: Case, samples: int, seed: int, workers: int | None, timed: bool, largest: bool,
@@ -162,10 +203,47 @@ def of_case_drawn(case: Case, samples: int, seed: int, workers: int | None, time
     return replace(result, name=case.name)
 
 
+def of_each_thruster(case: Case, samples: int, seed: int, workers: int | None) -> tuple[Percentiles, ...]:
+    """The same of each thruster of a loaded case alone, of which something is uncertain. Raises InputError
+    where nothing is of any."""
+    text = text_of_case(case)
+    texts = {item.name: alone_stuck(case.path, text, item.name) for item in case.thrusters}
+    loose = {name: own for name, own in texts.items() if read_text(case.path, own).uncertain} or texts
+    certain = tuple(name for name in texts if name not in loose)
+    more = (Caveat(Kind.SAMPLES, OF_NONE(thrusters=certain)),) if certain else ()
+    result = []
+    for name, own in loose.items():
+        found = of_plan(Plan(case.path, own, (), samples, seed, (), quick=True), case.limits is not None,
+                        True, workers, {})
+        result.append(replace(found, name=f"{case.name}: {name}", thruster=name,
+                              caveats=(*found.caveats, *more)))
+    return tuple(result)
+
+
+def of_burn_drawn(burning: Any, samples: int, seed: int, workers: int | None, timed: bool, largest: bool,
+                  stop: str | None = None, below_for_ever: str | None = None,
+                  **limit: str | None) -> Percentiles:
+    """The same of thrusters that fire on a schedule, whose forces and other numbers are drawn. stop,
+    below_for_ever: `stop` and `below` of `burn`, whose latest closing time is found where it is given."""
+    case = burning.craft
+    options = tuple((name, value) for name, value in (("stop", stop), ("below", below_for_ever))
+                    if value is not None)
+    chain = Chain(burning, None if stop is None else in_si(stop, TIME, "stop"))
+    if below_for_ever is not None and not chain.quiet:
+        raise InputError(TORQUE_STAYS)
+    plan = Plan(case.path, case.text, (), samples, seed, (), quick=True, burn=options)
+    result = of_plan(plan, timed, largest, workers,
+                     {name: value for name, value in limit.items() if value is not None})
+    return replace(result, name=case.name)
+
+
 def of_plan(plan: Plan, timed: bool, largest: bool, workers: int | None,
             limit: dict[str, str]) -> Percentiles:
     """The percentiles of a plan of draws."""
-    answers = [name for name, wanted in (("fate", largest), ("when", timed), ("largest", largest)) if wanted]
+    closing = dict(plan.burn or ()).get("below")
+    wanted = ({"fate": largest, "when": timed, "largest": largest} if plan.burn is None
+              else {"burn": largest, "burn_when": timed, "closing": closing})
+    answers = [name for name, asked in wanted.items() if asked]
     plan = judged(replace(plan, answers=tuple(answers), limit=tuple(limit.items())))
     with run(plan, None, workers) as swept:
         records, fault = swept.records, swept.fault
@@ -193,6 +271,12 @@ def of_plan(plan: Plan, timed: bool, largest: bool, workers: int | None,
                          largest=distribution(np.where(unknown, kept["size"], size),
                                               np.where(unknown, math.inf, size), "" if scaled else "rad/s"),
                          caveats=(*result.caveats, *_open(unknown, "largest rate")))
+    if closing is not None:
+        low, high = kept["closing_low"], kept["closing_high"]
+        open_ = np.isnan(high)
+        result = replace(result, below=float(in_si(closing, RATE, "below")),
+                         closing=distribution(low, np.where(open_, math.inf, high), "s"),
+                         caveats=(*result.caveats, *_open(open_, "latest closing time")))
     return result
 
 

@@ -13,7 +13,7 @@ import json
 import os
 import zlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from math import prod
 from typing import Any, NamedTuple
@@ -23,7 +23,7 @@ import numpy as np
 from ..answers.kinds import KINDS, kind_of
 from ..case.correlations import factor
 from ..case.limit_options import StatedLimit, stated_limit
-from ..case.read import Case, read_all, read_text
+from ..case.read import Case, load_burning, read_all, read_text
 from ..case.source import parsed, source_text
 from ..case.uncertain import NORMAL, Correlation, Uncertain
 from ..errors import InputError, printable
@@ -31,7 +31,7 @@ from ..numbers.units import NONE, TIME, in_si
 from ..physics.coefficients import effective
 from ..version import __version__
 from .axes import MAX_POINTS, Axis, Key, axis_of, each_once, key_of, keys_of, si_unit
-from .columns import ANSWERS, asked_answers
+from .columns import ALL, asked_answers
 from .pointed import Pointed, pointed_from
 
 
@@ -165,7 +165,8 @@ class Plan:
     points, None without; answers: names of `columns.ANSWERS`; limit: options of `when`, by name; listed: of a
     plane of states those places alone (`listed.packed`), in one row; follow: how long motions are followed
     that only a run decides, as it was written; pointed: of an atlas, its directions, the only dimension
-    then; quick: times to a limit by runs, without a proof."""
+    then; quick: times to a limit by runs, without a proof; burn: of thrusters that fire on a schedule, what
+    is asked of `burn`, by name, as it was written; None of a torque that stays."""
 
     path: str
     text: str = field(repr=False)
@@ -178,6 +179,7 @@ class Plan:
     follow: str | None = None
     pointed: Pointed | None = field(default=None, repr=False)
     quick: bool = False
+    burn: tuple[tuple[str, str], ...] | None = None
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -187,7 +189,9 @@ class Plan:
 
     @cached_property
     def case(self) -> Case:
-        """The case with the numbers of the file."""
+        """The case with the numbers of the file; of a burn the craft."""
+        if self.burn is not None:
+            return replace(load_burning(self.text).craft, path=self.path)
         return read_text(self.path, self.text)
 
     @cached_property
@@ -210,7 +214,9 @@ class Plan:
 
     @cached_property
     def inner(self) -> tuple[int, ...]:
-        """The dimensions along which only the state varies."""
+        """The dimensions along which only the state varies; of a burn none, which is answered whole."""
+        if self.burn is not None:
+            return ()
         keys = [(axis.key,) for axis in self.axes] + ([self.sampled.keys] if self.sampled else [])
         return tuple(n for n, of in enumerate(keys)
                      if all(key.paths[0][0] == "motion" and key.paths[0][1] in RATES for key in of))
@@ -244,7 +250,7 @@ class Plan:
 
     def limit_of(self, case: Case) -> StatedLimit | None:
         """The same for a point, whose own [limits] may vary."""
-        return stated_limit(case, **dict(self.limit)) if "when" in self.answers else None
+        return stated_limit(case, **dict(self.limit)) if {"when", "burn_when"} & set(self.answers) else None
 
     @cached_property
     def longest(self) -> float | None:
@@ -275,7 +281,7 @@ class Plan:
             return POINTED_COST
         scene = effective(self.case.scene)
         slow = not scene.plain or KINDS[kind_of(scene)].follows
-        return sum(ANSWERS[name].cost[slow] for name in self.answers) + SCENE_COST[slow] / self.states
+        return sum(ALL[name].cost[slow] for name in self.answers) + SCENE_COST[slow] / self.states
 
     def as_json(self, brief: bool = False) -> str:
         """All of the plan, for another process. brief: without the folder of the case, for a file that is to
@@ -287,7 +293,8 @@ class Plan:
                            "answers": self.answers, "limit": self.limit}
                           | pointed | {name: text for name,
                                        text in (("listed", self.listed), ("follow", self.follow),
-                                                     ("quick", self.quick)) if text})
+                                                     ("quick", self.quick)) if text}
+                          | ({} if self.burn is None else {"burn": self.burn}))
 
     @cached_property
     def digest(self) -> str:
@@ -318,7 +325,7 @@ def from_json(text: str) -> Plan:
     pointed = pointed_from(shown["pointed"]) if "pointed" in shown else None
     return Plan(shown["path"], shown["text"], rows("vary"), shown["samples"], shown["seed"],
                 tuple(shown["answers"]), rows("limit"), shown.get("listed", ""), shown.get("follow"), pointed,
-                shown.get("quick", False))
+                shown.get("quick", False), rows("burn") if "burn" in shown else None)
 
 
 def split_keys(text: Sequence[str],

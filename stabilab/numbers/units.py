@@ -109,6 +109,7 @@ DIMENSIONS: dict[str, Dimension] = {
     "effects.liquid_cavity.radius": LENGTH,
     "effects.viscous_damper.inertia": INERTIA, "effects.viscous_damper.coefficient": MOMENTUM,
     "effects.damper_wheel.inertia": INERTIA, "effects.damper_wheel.coefficient": MOMENTUM,
+    "effects.damper_wheel.stiffness": TORQUE,
     "effects.damper_mass.mass": MASS, "effects.damper_mass.place": LENGTH,
     "effects.damper_mass.stiffness": STIFFNESS, "effects.damper_mass.coefficient": MASS_FLOW,
     "effects.rate_damper.coefficient": MOMENTUM,
@@ -117,7 +118,7 @@ DIMENSIONS: dict[str, Dimension] = {
     "motion.damper_wheel": RATE,
     "motion.damper": RATE, "motion.wheel": MOMENTUM, "motion.rotation_period": TIME,
     "motion.precession_period": TIME, "motion.amplitude": ANGLE, "motion.spin": RATE,
-    "motion.nutation": ANGLE,
+    "motion.nutation": ANGLE, "motion.lean": ANGLE,
 }
 
 # compiled where a unit is read

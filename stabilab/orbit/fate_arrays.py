@@ -428,7 +428,7 @@ def _mark_spins(land: Landscape, out: Mapping[str, np.ndarray]):
         out["sense"][:] = spins * np.int8(land.sense)
 
 
-def _margins(land: Landscape, states: np.ndarray):
+def _margins(land, states):
     """(margins (n,) in canonical units, which of them are doubtful (n,)); on an invariant plane NaN."""
     circles, barred = not land.potential.walled, land.may_have_barriers()
     if barred and land.barriers_by_arcs:
@@ -505,7 +505,8 @@ def circle_margins(land: ConicLandscape, location: Sequence[np.ndarray], w: np.n
     """
     pot, energy, n = land.potential, 0.5 * w * w, len(w)
     best, doubtful, blurred = np.full(n, -np.inf), np.zeros(n, bool), np.full(n, -np.inf)
-    radius, rounding = np.hypot(*location), size[0] + size[1]
+    Q, rounding = land.invariant(location), size[0] + size[1]
+    radius = np.sqrt(Q)
     with np.errstate(all="ignore"):
         pull = np.abs(pot.G * location[0] + pot.c) + abs(pot.d)
         for rows, offset, point, barrier in land.branches(location, barriers_only=True):
@@ -529,7 +530,7 @@ def circle_margins(land: ConicLandscape, location: Sequence[np.ndarray], w: np.n
             vague = ~(unsure <= MARGIN_SHARE * (np.abs(height) + kinetic))
             blurred[rows[vague]] = np.maximum(blurred[rows[vague]], (margin + unsure)[vague])  # NaN stays
         for edge in land.conic.fold_invariants + land.conic.tangents:
-            doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
+            doubtful |= np.abs(Q - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
     # a barrier of less digits than promised may be the highest
     doubtful |= ~(blurred < best) & ~np.isneginf(blurred)
     return best, doubtful & (radius > 0)

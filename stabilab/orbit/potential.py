@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..numbers.vectors import Number
 
 EPS = 2.0**-52
+SHORT = 0.7  # of an arc: there it is too near to its sine for a difference
 
 
 def sin(y: float | np.ndarray):
@@ -39,9 +40,9 @@ def exp(y: float | np.ndarray):
 def y_minus_sin(y):
     """y - sin y without cancellation."""
     if type(y) is float:
-        return _odd_series(y) if abs(y) < 0.7 else y - math.sin(y)
+        return _odd_series(y) if abs(y) < SHORT else y - math.sin(y)
     import numpy as np
-    result, small = y - np.sin(y), np.abs(y) < 0.7
+    result, small = y - np.sin(y), np.abs(y) < SHORT
     if np.any(small):
         if not np.ndim(y):
             return _odd_series(y)
@@ -50,7 +51,7 @@ def y_minus_sin(y):
 
 
 def _odd_series(t: float | np.ndarray):
-    """t - sin t for |t| < 0.7."""
+    """t - sin t for |t| < SHORT."""
     t2 = t * t
     return t * t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
 
@@ -169,14 +170,16 @@ class Circle:
         Q = x0 * x0 + z0 * z0
         s, cosine = (x * z0 - z * x0) / Q, (x * x0 + z * z0) / Q
         u = np.where(cosine > 0, s * s / (1 + cosine), 1 - cosine)
+        lag, small = offset - s, offset < SHORT
+        lag[small] = _odd_series(offset[small])
         cross, bent = self.G * x * z, 0.5 * self.G * (z - x) * (z + x)
-        tilt, pull = self.mu * y_minus_sin(offset), u * (np.abs(self.d * z) + np.abs(self.c * x))
+        tilt, pull = self.mu * lag, u * (np.abs(self.d * z) + np.abs(self.c * x))
         height = bent * s * s + cross * s * u + u * (self.d * z - self.c * x) - tilt
         # a rounding of each term; of the angle and the radius of the place; and of the equilibrium, where the
         # force should vanish
         angle = (np.abs(x * z0) + np.abs(z * x0) + np.abs(x0 * z0)) / Q
         unsure = (np.abs(bent * s * s) + np.abs(cross * s * u) + pull + np.abs(tilt)
-                  + np.abs(self.force(place)) * angle
+                  + (self.mu + np.abs(self.force(place))) * angle
                   + (self.mu + np.abs(cross) + self.terms(spot) + np.abs(self.force(spot)) / EPS) * np.abs(s))
         return height, EPS * unsure
 

@@ -285,6 +285,7 @@ class MotionView:
     damper: Triple
     wheel: Triple
     damper_wheel: tuple[Symbolic, ...]
+    sprung_wheel: tuple[Symbolic, ...]
     damper_mass: tuple[Symbolic, ...]
     change: Triple  # omega', once it is known
 
@@ -357,6 +358,7 @@ KINEMATICS = {
     "damper": _inside("damper", "viscous damper"),
     "wheel": _inside("wheel", "wheel motor"),
     "damper_wheel": _inside("damper_wheel", "damper wheel"),
+    "sprung_wheel": _inside("sprung_wheel", "damper wheel on a spring"),
     "damper_mass": _inside("damper_mass", "damper mass"),
 }
 

@@ -185,13 +185,15 @@ BLOCKS = {block.name: block for block in (
           "angular velocity of the damper's sphere relative to the body, body frame"),
     Block("wheel", ("h1", "h2", "h3"), "N m s", "momentum that a motor has given its wheel, body frame"),
     Block("damper_wheel", ("sigmaw",), "rad/s", "rate of the damper's wheel relative to the body"),
+    Block("sprung_wheel", ("phis", "sigmas"), "rad, rad/s",
+          "angle of the damper's wheel, from where its spring is relaxed, and its rate relative to the body"),
     Block("damper_mass", ("xm", "vm"), "m, m/s",
           "place of the damper's mass on its line, from where its spring is relaxed, and its speed in the "
           "body"))}
 ORDER = tuple(BLOCKS)
 # what moves inside the body: zero where nothing is said of it; the first are vectors
 VECTORS_INSIDE = ("damper", "wheel")
-INSIDE = (*VECTORS_INSIDE, "damper_wheel", "damper_mass")
+INSIDE = (*VECTORS_INSIDE, "damper_wheel", "sprung_wheel", "damper_mass")
 NO_MOTION = {name: (0.0,) * len(BLOCKS[name].components) for name in INSIDE}
 # what a run may show: the blocks, and what is formed from them
 PARTS = BLOCKS | {part.name: part for part in (

@@ -195,17 +195,19 @@ def equilibrium_mask(scene: AnyScene, states: np.ndarray) -> np.ndarray:
     pass, exactly."""
     form = scene.quadratic()
     kappa, rho, sigma, m = form.coefficients
-    candidate = np.ones(len(states), bool)
+    result, rows, left = np.zeros(len(states), bool), np.arange(len(states)), states
     with np.errstate(all="ignore"):
-        for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
-            u, v = states[:, j], states[:, k]
+        # the rate of most terms leaves the fewest for the others
+        for i in sorted(range(3), key=lambda i: -sum(map(bool, (kappa[i], rho[i], sigma[i], m[i])))):
+            u, v = left[:, i - 2], left[:, i - 1]
             terms = kappa[i] * u * v, rho[i] * v, sigma[i] * u
             rate = terms[0] + terms[1] + terms[2] + m[i]
             size = np.abs(terms[0]) + np.abs(terms[1]) + np.abs(terms[2]) + abs(m[i])
-            candidate &= ~(np.abs(rate) > 16 * EPS * size + UNDERFLOW)  # what overflows is a candidate, too
-    for index in np.nonzero(candidate)[0]:
-        candidate[index] = rests(form, states[index])
-    return candidate
+            some = np.nonzero(~(np.abs(rate) > 16 * EPS * size + UNDERFLOW))[0]
+            rows, left = rows[some], left[some]  # what overflows is a candidate, too
+    for index in rows:
+        result[index] = rests(form, states[index])
+    return result
 
 
 def checked_starts(equations: Equations, states: Any) -> np.ndarray:

@@ -106,7 +106,7 @@ units = _among("deg", "deg/day", "rpm", "rev/s", "si")
 models = _among("exact", "linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 methods = _among("taylor", "reduced", "DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
 papers = _among("constant-torque", "charged", "cavity", "top")
-sources = _among("nesc", "basilisk", "orekit", "42")
+sources = _among("nesc", "basilisk", "orekit", "jeod", "apophis", "tc3", "moon", "shell", "dual-spin", "42")
 
 
 def kinds(incomplete: str) -> list[str]:

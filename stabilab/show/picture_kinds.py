@@ -75,7 +75,9 @@ KINDS = {
              size=SMALL)),
     "histogram": Picture(
         "how often draws of the uncertain numbers reach the limit after which time, or their largest rates",
-        "histogram.histogram", "draws"),
+        "histogram.histogram", "draws",
+        Page("Draws of the uncertain numbers", "Each bar: how many draws; the percentiles stand below, under "
+             "uncertain numbers.", "answer", size=SMALL)),
     "body": Picture(
         "the body as the box of its moments, with thrusters, wheels and what else acts on it", "body.body",
         "body",

@@ -419,6 +419,24 @@ def _rotation_diagram(result):
         "changes": [float(value) for value in result.changes], "because": result.because}))
 
 
+def _top_diagram_words(result):
+    phrases = ", ".join("stable" if piece.stable("upright") else "unstable" for piece in result.pieces)
+    return f"{some(len(result.pieces), 'piece')} over {result.span.key.name}; upright {phrases}"
+
+
+def _top_diagram(result):
+    dims, rows = ("piece",), result.pieces
+    values = {name: _numbers(dims, (getattr(row, name) for row in rows)) for name in ("low", "high")}
+    values |= {family: _numbers(dims, (float(row.stable(family)) for row in rows))
+               for family in ("upright", "hanging")}
+    values |= {name: _numbers(dims, (sum(state.leaning and state.stable is stable for state in row.states)
+                                     for row in rows))
+               for name, stable in (("leaning_stable", True), ("leaning_unstable", False))}
+    return Variables(dims, values, {}, _known({
+        "key": result.span.key.name, "changes": [float(value) for value in result.changes],
+        "because": result.because}))
+
+
 def _separatrix_words(result):
     return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in result.branches)
             or f"no branches: {result.because}")
@@ -626,13 +644,14 @@ def _percentiles_words(result):
     parts = [f"{word} {100 * of.fraction:.4g} %" for shares in (result.outcomes, result.reached)
              for word, of in shares.items()]
     parts += [f"{name} " + ", ".join(f"{q.percent} % {number(q.high, 6)}" for q in item.quantiles)
-              for name, item in (("time", result.time), ("largest", result.largest)) if item is not None]
+              for name, item in (("time", result.time), ("largest", result.largest),
+                                 ("closing", result.closing)) if item is not None]
     return f"{result.name}, {some(result.number, 'draw')}: {'; '.join(parts)}"
 
 
 def _percentiles(result):
     values, percents = {}, None
-    for name, item in (("time", result.time), ("largest", result.largest)):
+    for name, item in (("time", result.time), ("largest", result.largest), ("closing", result.closing)):
         if item is None:
             continue
         percents = [q.percent for q in item.quantiles]
@@ -661,6 +680,7 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
     "FlatSpin": (_flat_spin_words, _flat_spin), "Ending": (_ending_words, _ending),
     "Rotations": (_rotations_words, _rotations), "GyrostatSpin": (_gyrostat_spin_words, _rotations),
     "RotationDiagram": (_rotation_diagram_words, _rotation_diagram),
+    "TopDiagram": (_top_diagram_words, _top_diagram),
     "Percentiles": (_percentiles_words, _percentiles)}
 
 

@@ -22,6 +22,7 @@ from ..orbit.separatrix.saddles import REACH, PlainBranch, plain_separatrix
 from ..packages import present
 from ..physics.scene import AnyScene
 from . import style
+from .assumed import Assumed
 from .turns.band import BAND, Grid, Long
 from .units import with_unit
 
@@ -45,10 +46,12 @@ def natural(scene: AnyScene, state: Sequence[float]) -> float:
     return NATURAL * (math.sqrt(sum(scene.body.inertia) / 3 / torque) if torque else 1.0 / (rate or 1.0))
 
 
-def seen(span: tuple[float, ...] | None, motion: Motion, alone: float) -> tuple[float, float]:
+def seen(span: tuple[float, ...] | None, motion: Motion, alone: float,
+         reached: float | None = None) -> tuple[float, float]:
     """(from, to) in the scene's time: past the limit of the case, past the beginning of a spin-up, past the
     end of a motion that loses energy, some periods of one that repeats; otherwise the span of the case, and
-    where it gives none, `alone`."""
+    where it gives none, `alone`. reached: the time to the limit that is assumed where the case states none.
+    """
     low, high = span or (0.0, alone)
     if high < low:  # followed backwards, where nothing of the headline lies
         return low, high
@@ -59,7 +62,7 @@ def seen(span: tuple[float, ...] | None, motion: Motion, alone: float) -> tuple[
     if motion.period:
         wanted = min(high, low + PERIODS * motion.period) if span else low + ALONE * motion.period
         return low, max(wanted, low + FEWEST * motion.period)
-    late = GROWTH * spin_up_time(motion)
+    late = max(GROWTH * spin_up_time(motion), BEYOND * (reached or 0.0))
     return low, late if high < late <= low + STRETCHED * (high - low) else high
 
 
@@ -218,6 +221,7 @@ class Space:
 
 
 MOTION, NEAREST, LIMIT = "this motion", "nearest point of the separatrix", "limit of |ω|"
+ASSUMED = f"assumed {LIMIT}"  # of a case that states none
 
 
 def look(text: str) -> dict[str, Any]:
@@ -227,15 +231,17 @@ def look(text: str) -> dict[str, Any]:
 
 def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Iterable[PlainBranch],
           path: list[Point], marks: Iterable[tuple[str, Point]], curves: Iterable[tuple[str, list[Point]]],
-          text: str, more: str = "", limit: float | None = None, long: Long | None = None) -> Space:
+          text: str, more: str = "", limit: tuple[str, float] | None = None,
+          long: Long | None = None) -> Space:
     """What is drawn in a box. names, rate: of the components, and their unit (name, how many make one of the
     scene's). branches: those that come into it are drawn, in the colours of their numbers; more: behind their
-    names; text: of the separatrix. limit: of |omega|, drawn where it comes into the box, and fills a part
-    of it. long: what is drawn of a motion of many turns in place of its path."""
+    names; text: of the separatrix. limit: its words, and of |omega| its size, drawn where it comes into the
+    box, and fills a part of it. long: what is drawn of a motion of many turns in place of its path."""
     (unit, per), shares = rate, [box.share(at) for at in path]
     named = tuple(with_unit(name, unit) for name in names)
-    veils = [(f"{LIMIT}, {per * limit:.4g} {unit}".rstrip(), LIMIT, part) for part
-             in (_sphere(limit, box) if limit and limit > SMALL * max(box.half) else ())]
+    called, size = limit or ("", 0.0)
+    veils = [(f"{called}, {per * size:.4g} {unit}".rstrip(), called, part)
+             for part in (_sphere(size, box) if size > SMALL * max(box.half) else ())]
     veils += [(part.name, BAND, part) for part in (() if long is None else long.skins)]
     shown = [(style.SURFACES[n % len(style.SURFACES)],
               replace(branch, name=f"{branch.name.capitalize()} of the separatrix{more}"))
@@ -282,28 +288,36 @@ def _sphere(size: float, box: Box) -> Iterator[Grid]:
             yield Grid(LIMIT, ARC + 1, ARC + 1, points)
 
 
-def beside_limit(limit: float | None, path: list[Point]) -> list[tuple[str, Point]]:
-    """The place on the sphere of a limit of |omega| behind a motion's farthest, as a mark for its box."""
+def beside_limit(limit: tuple[str, float] | None, path: list[Point]) -> list[tuple[str, Point]]:
+    """The place on the sphere of a limit of |omega|, (words, size), behind a motion's farthest, as a mark for
+    its box; of one that is assumed, and not reached, none."""
     far = max(path, key=lambda at: math.hypot(*at), default=(0.0,) * 3)
-    return [(LIMIT, tuple(v * limit / math.hypot(*far) for v in far))] if limit and any(far) else []
+    called, size = limit or ("", 0.0)
+    if not size or not any(far) or called == ASSUMED and math.hypot(*far) < size:
+        return []
+    return [(called, tuple(v * size / math.hypot(*far) for v in far))]
 
 
-def limit_of(case: Any) -> float | None:
-    """The limit of |omega| that a case states."""
+def limit_of(case: Any, assumed: Assumed | None = None) -> tuple[str, float] | None:
+    """(words, size) of the limit of |omega| that a case states; of the one assumed where it states none."""
     declared = None if case is None or case.limits is None else case.limits.rate
-    return None if declared is None else float(declared)
+    if declared is not None:
+        return LIMIT, float(declared)
+    return None if assumed is None else (ASSUMED, assumed.rate)
 
 
-def near_part(times: Sequence[float], path: list[Point], motion: Motion | None) -> list[Point]:
+def near_part(times: Sequence[float], path: list[Point], motion: Motion | None,
+              reached: float | None = None) -> list[Point]:
     """A motion that spins up as long as it is near where it was in the first twentieth of its time, and past
-    the limit of its case; all of it of any other, also where that goes far and comes back."""
+    the limit of its case; all of it of any other, also where that goes far and comes back. reached: as of
+    `seen`."""
     if motion is not None and motion.fate is not Fate.SPIN_UP or not path:
         return path
     early = abs(times[-1] - times[0]) / 20
     size = max(math.hypot(*x) for t, x in zip(times, path) if abs(t - times[0]) <= early)
     if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
         size = max(size, motion.margin_velocity)
-    limit = BEYOND * ((motion and limit_time(motion)) or 0.0)
+    limit = BEYOND * ((motion and limit_time(motion)) or reached or 0.0)
     late = (next((n for n, (t, x) in enumerate(zip(times, path)) if math.hypot(*x) > GROWN * size
                   and t > limit), len(path)) if size else len(path))
     return path[:late + 1] if late > 20 else path

@@ -44,8 +44,8 @@ MEANING = {  # what a line or a point stands for -> how it is drawn
     "stable": {"color": BLUE, "linestyle": "-", "linewidth": 2.0},
     "unstable": {"color": VERMILION, "linestyle": "--", "linewidth": 1.8},
     "undecided": {"color": AMBER, "linestyle": ":", "linewidth": 2.0},
-    "separatrix": {"color": BLACK, "linestyle": "-", "linewidth": 1.9},
-    "separatrix 2": {"color": GREY, "linestyle": "-", "linewidth": 1.9},
+    "separatrix": {"color": BLACK, "linestyle": "-", "linewidth": 1.2},
+    "separatrix 2": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
     "bounded": {"color": BLUE, "linestyle": "-", "linewidth": 1.4},
     "spin-up": {"color": VERMILION, "linestyle": "-", "linewidth": 1.4},
     "crossing": {"color": GREY, "linestyle": "-.", "linewidth": 1.6},
@@ -73,7 +73,8 @@ SPACE: dict[str, dict[str, Any]] = {  # words of a legend -> how that is drawn i
     "this motion": MEANING["this motion"], "start": MARKER["start"],
     "nearest point of the separatrix": {"marker": "o", "color": PALE, "markeredgecolor": BLACK,
                                         "markersize": 6, "linestyle": "none"},
-    "limit of |ω|": {"color": VERMILION}, "least to greatest": {"color": VIOLET},
+    "limit of |ω|": {"color": VERMILION}, "assumed limit of |ω|": {"color": VERMILION},
+    "least to greatest": {"color": VIOLET},
     **{equilibrium: MEANING[kind] for kind, equilibrium in EQUILIBRIA.items()}}
 SURFACES = ("#B4BABE", "#5F6467", "#EFEDE9", "#868B8F")  # of the separatrix, in order: greys
 SERIES = (BLACK, VIOLET, SAGE, WINE, GREY)               # one curve each for a list of parameters

@@ -132,9 +132,12 @@ def glb(meshes: Sequence[Mesh], colours: Sequence[str]) -> bytes:
         return len(document["accessors"]) - 1
 
     for number, mesh in enumerate(m for m in meshes if len(m.triangles)):
+        # half as many bytes where they reach; the last number of two bytes is no vertex in glTF
+        kind, component = ("<u2", 5123) if len(mesh.points) < 65_535 else ("<u4", 5125)
         part = {"attributes": {"POSITION": accessor(mesh.points.astype("<f4"), "VEC3", 5126, 34962),
                                "NORMAL": accessor(normals(mesh).astype("<f4"), "VEC3", 5126, 34962)},
-                "indices": accessor(mesh.triangles.astype("<u4"), "SCALAR", 5125, 34963), "material": number}
+                "indices": accessor(mesh.triangles.astype(kind), "SCALAR", component, 34963),
+                "material": number}
         document.setdefault("meshes", []).append({"name": mesh.name, "primitives": [part]})
         document.setdefault("nodes", []).append({"name": mesh.name, "mesh": number})
         document.setdefault("materials", []).append({
@@ -371,13 +374,16 @@ def summarise(case, result, meshes) -> dict:
             "reason": result.because, "why": result.reason.as_dict()}
 
 
-def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:
-    """NAME.vtp (where vtk is installed), NAME.glb, NAME.stl; none of them needs GL. Returns their paths."""
+def write_meshes(meshes: list[Mesh], out: Path, name: str,
+                 wanted: Sequence[str] = ("vtp", "glb", "stl")) -> list[Path]:
+    """NAME.vtp (where vtk is installed), NAME.glb, NAME.stl, as far as they are wanted; none needs GL.
+    Returns their paths."""
     out.mkdir(parents=True, exist_ok=True)
     writers = {"glb": lambda path: path.write_bytes(glb(meshes, style.SURFACES)),
                "stl": lambda path: path.write_bytes(stl(meshes))}
     if present("vtkmodules"):
         writers = {"vtp": lambda path: _write_vtp(meshes, path), **writers}
+    writers = {kind: write_one for kind, write_one in writers.items() if kind in wanted}
     for kind, write_one in writers.items():
         with style.whole_file(out / f"{name}.{kind}") as waiting:
             write_one(waiting)

@@ -247,7 +247,9 @@ SDF = "<link name='{}'><inertial><mass>1</mass><inertia><ixx>3</ixx><iyy>2</iyy>
     ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<pose>1 2 3</pose><inertial>") + "</model></sdf>", 2, "six numbers"),
     ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<pose relative_to='q'>1 2 3 0 0 0</pose><inertial>")
      + "</model></sdf>", 2, "no frame q"),
-    ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<inertial auto='true'>") + "</model></sdf>", 2, "auto")])
+    ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<inertial auto='true'>") + "</model></sdf>", 2, "auto"),
+    ("<sdf><model>" + SDF.format("a") + "\n" + SDF.format("a") + "</model></sdf>", 2, "a second link a, the first is in line 1"),
+    ("<robot>" + LINK.format("a") + "\n" + LINK.format("a") + "</robot>", 2, "a second link a, the first is in line 1")])
 def test_a_fault_has_its_line_and_what_to_do(tmp_path, stabilab, text, line, words):
     (tmp_path / "own.txt").write_text(text)
     code, out, err = stabilab("import", tmp_path / "own.txt")
@@ -260,3 +262,34 @@ def test_bodies_that_are_free_of_each_other_are_no_rigid_body(tmp_path, stabilab
     code, _, err = stabilab("import", tmp_path / "own.xml")
     assert code == 2 and "the bodies a, b move freely of each other" in err
     assert stabilab("import", tmp_path / "own.xml", "--body", "b")[0] == 0
+
+
+ODD = ("<link name='{}'><inertial><origin xyz='0.1 0 0.2'/><mass value='{}'/><inertia ixx='{}' iyy='{}' izz='{}' ixy='{}' ixz='0' "
+       "iyz='0'/></inertial></link>")
+
+
+@pytest.mark.parametrize("odd", [("base", "0.1", 0, 0, 0, 0), ("base", "1e-6", "1e-6", "1e-6", "1e-6", "1e-6"),
+                                 ("base", "0", "1e-6", "1e-6", "1e-6", 0), ("base", "0.02", "2e-8", "3e-8", "4e-8", "6e-8")])
+def test_a_part_that_no_body_is_counts_where_all_together_are_one(tmp_path, stabilab, odd):
+    """Marks with moments of any size, and masses without extension, as descriptions of the field have them."""
+    path = tmp_path / "own.urdf"
+    path.write_text("<robot name='r'>" + ODD.format(*odd) + LINK.format("arm") + JOINT.format("fixed", "base", "arm") + "</robot>")
+    code, out, err = stabilab("import", path)
+    assert code == 0, err
+    compared(path, out)
+    assert "no body has the mass and moments that the imported file gives of base" in load(out).caveats[0].words
+    code, _, err = stabilab("import", path, "--body", "base")
+    assert code == 2 and "own.urdf:1: <inertia>: base: no body has a mass of" in err
+    code, out, _ = stabilab("import", path, "--body", "arm")
+    assert code == 0 and not load(out).caveats
+
+
+def test_what_a_model_includes_is_missing_from_every_answer(tmp_path, stabilab):
+    include = "<include><uri>model://camera</uri></include>"
+    (tmp_path / "own.sdf").write_text("<sdf><model name='m'>" + include + SDF.format("a") + "</model></sdf>")
+    code, out, _ = stabilab("import", tmp_path / "own.sdf")
+    assert code == 0 and "are not read (model://camera)" in load(out).caveats[0].words
+    tied = "<joint name='j' type='fixed'><parent>a</parent><child>lens</child></joint>"
+    (tmp_path / "own.sdf").write_text("<sdf><model name='m'>" + include + SDF.format("a") + tied + "</model></sdf>")
+    code, _, err = stabilab("import", tmp_path / "own.sdf")
+    assert code == 2 and "no link lens: expected one of the links; files of <include> are not read: import model://camera" in err

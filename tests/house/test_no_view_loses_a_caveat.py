@@ -42,7 +42,8 @@ torque = [0, 0, 0.02]
 angular_velocity = [0.1, 0.05, 0.02]
 span = [0, 30]
 """
-WRITES = {"plot", "surface", "report", "explore"}  # a file or a server, not an answer: below
+# a file or a server, not an answer: below; a body for others: tests/case/test_export.py
+WRITES = {"plot", "surface", "report", "explore", "export"}
 SLOW = {"precision", "atlas", "burn", "orbit", "surface", "flat_spin", "compare", "chaos"}
 
 

@@ -15,7 +15,7 @@ import pytest
 import stabilab as package
 from stabilab.case.body import THRUSTER
 from stabilab.case.read import load
-from stabilab.case.table import UNCERTAIN
+from stabilab.case.table import uncertain_keys
 from stabilab.case.write import text_of
 from stabilab.cli import whole
 from stabilab.errors import InputError
@@ -41,6 +41,8 @@ FORMS = {  # cases that together have every key; each is asked with one number u
     "spinning": BODY | {"motion": {"spin": "0.1", "axis": [0, 0, 1], "nutation": "0.2", "span": [0, 50]},
                         "effects": {"constant_torque": {"torque": [0, 0, "0.05"]}}},
     "damper wheel": BODY | START | {"effects": {"damper_wheel": {"inertia": 3, "coefficient": 1, "axis": [0, 1, 1]}}},
+    "sprung wheel": BODY | START | {"effects": {"damper_wheel": {"inertia": 3, "coefficient": 1, "axis": [0, 1, 1],
+                                                                 "stiffness": 2}}},
     "damper": BODY | START | {"effects": {"viscous_damper": {"inertia": 3, "coefficient": 1}}},
     "thruster": BODY | START | {"thrusters": [FORCE]},
     "burning": BODY | START | {"thrusters": [{name: value for name, value in FORCE.items() if name != "stuck"}
@@ -50,6 +52,9 @@ FORMS = {  # cases that together have every key; each is asked with one number u
     "wheel": BODY | START | {"wheels": [{"name": "W", "axis": [1, 0, 0], "inertia": "0.01", "speed": 300}],
                              "effects": {"constant_torque": {"torque": [0, 0, "0.05"]}}},
     "wheel's momentum": BODY | START | {"wheels": [{"axis": [1, 0, 0], "momentum": 3}]},
+    "leaning top": {"body": {"inertia": [15, 15, 10]}, "effects": {"gravity": {"weight": 20,
+                                                                               "centre_of_mass": [0, 0, "0.5"]}},
+                    "motion": {"spin": 20, "lean": "0.6", "precession": "slow", "span": [0, 1]}},
     "top": {"body": {"inertia": [15, 15, 10]}, "effects": {"gravity": {"weight": 20,
                                                                        "centre_of_mass": [0, 0, "0.5"]}},
             "motion": {"angular_velocity": ["0.1", 0, 20], "vertical": ["0.6", 0, "0.8"], "span": [0, 1]}},
@@ -93,19 +98,21 @@ VARIED = {  # of each form, what is varied that stays certain
     "tumbling": "motion.span[1]", "tumbling by its cone": "motion.span[1]", "spinning": "motion.span[1]",
     "wheel": "motion.angular_velocity[3]", "wheel's momentum": "motion.angular_velocity[3]",
     "damper": "motion.angular_velocity[3]", "damper wheel": "motion.angular_velocity[3]",
+    "sprung wheel": "motion.angular_velocity[3]",
     "thruster": "motion.angular_velocity[3]",
     "burning": "motion.angular_velocity[3]", "orbit": "effects.gyrostat.momentum[2]",
-    "top": "motion.angular_velocity[3]"}
+    "top": "motion.angular_velocity[3]", "leaning top": "motion.span[1]"}
 # commands whose answer is a file: pages and the explorer have tests of their own below
 DRAWN = {"plot": "pictures (tests/show/test_plots.py)", "surface": "meshes", "report": "the page below",
-         "explore": "the session below", "verify": "certificates"}
+         "explore": "the session below", "verify": "certificates",
+         "export": "a body for others (tests/case/test_export.py)"}
 
 
 def keys() -> list[tuple]:
     """(form, path) of every number that may be uncertain: those of the program's set, and those of a
     thruster."""
     found = []
-    for path in sorted(UNCERTAIN):
+    for path in sorted(uncertain_keys()):
         forms = [name for name, data in FORMS.items() if place(data, path) is not None]
         assert forms or path in {one for _, one in of_others()}, (
             f"{path}: no case of this test has the key: add it to FORMS or OTHERS")
@@ -116,7 +123,7 @@ def keys() -> list[tuple]:
 
 def of_others() -> list[tuple]:
     """(form, path) of the keys of effects that are looked at alone."""
-    return [(name, path) for path in sorted(UNCERTAIN) for name, data in OTHERS.items()
+    return [(name, path) for path in sorted(uncertain_keys()) for name, data in OTHERS.items()
             if place(data, path) is not None and path != ("body", "inertia") and path[0] != "motion"]
 
 

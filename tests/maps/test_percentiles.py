@@ -10,9 +10,11 @@ import pytest
 from scipy.stats import beta, binom, norm
 
 import stabilab
+from stabilab.case.read import load
 from stabilab.errors import InputError
-from stabilab.maps.percentiles import binomial, distribution, of_case_drawn, ranks
+from stabilab.maps.percentiles import binomial, distribution, of_case_drawn, percentiles, ranks
 from stabilab.maps.plan import planned
+from stabilab.show.report import one_case
 
 # spin-up about z from rest but for 0.02 rad/s: t = (limit - w0) I/M, falling in M and rising in I
 SPIN_UP = ('[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, "{}"]\n'
@@ -147,7 +149,8 @@ def test_draws_between_ends_far_apart_stand_in_no_bar():
 
 
 @pytest.mark.parametrize("options, cure", [
-    (("when", "--samples", "0"), "at least one point"), (("stuck", "--samples", "9", "--all-thrusters"), "leave out"),
+    (("when", "--samples", "0"), "at least one point"),
+    (("stuck", "--samples", "9", "--all-thrusters"), "no thruster: describe each"),
     (("when", "--samples", "9", "--seed", "-1"), "not negative")])
 def test_samples_that_are_none_are_bad_input(stabilab, case_file, options, cure):
     command, *rest = options
@@ -165,3 +168,58 @@ def test_percentiles_print_themselves_and_are_a_data_set():
     assert data["time_high"].sel(percent=50) == found.time.quantiles[1].high and data.attrs["reached_share"] == 1
     with pytest.raises(InputError, match="nothing to find"):
         stabilab.percentiles(FREE.format("0.09 +- 0.01"), 20, largest=False)
+
+
+THRUSTERS = """[body]
+inertia = [12, 9, 5]
+[[thrusters]]
+name = "A"
+position = [0.3, 0, 0]
+direction = [0, 1, 0]
+force = "0.1 N, sigma 5 %"
+stuck = true
+[[thrusters]]
+name = "B"
+position = [0, 0.3, 0]
+direction = [-1, 0, 0]
+force = "0.2 N +- 5 %"
+[[thrusters]]
+name = "C"
+position = [0, 0.3, 0]
+direction = [-1, 0, 0]
+force = "0.2 N"
+[limits]
+rate = 0.5
+[motion]
+angular_velocity = [0, 0, 0.02]
+"""
+
+
+def test_each_thruster_alone_has_its_percentiles(stabilab, case_file):
+    """About z, whose torque is 0.3 m times the force: the time of each draw by hand, as of `time`."""
+    path, options = case_file(THRUSTERS), ("--samples", "12", "--seed", "2", "--workers", "1")
+    text = stabilab("stuck", path, "--all-thrusters", *options)[1]
+    told = json.loads(stabilab("stuck", path, "--all-thrusters", *options, "--json")[1])["percentiles"]
+    assert [row["thruster"] for row in told] == ["A", "B"]
+    assert "case: A, 12 draws" in text and "case: B, 12 draws" in text and "nothing is drawn of C" in text
+    for name, force, row in (("A", 'force = "0.1 N, sigma 5 %"', told[0]), ("B", 'force = "0.2 N +- 5 %"', told[1])):
+        alone = THRUSTERS.replace("stuck = true\n", "").replace(force, f"{force}\nstuck = true")
+        drawn = planned(load(alone), (), samples=12, seed=2).sampled.values(0, 12)[:, 0]
+        found = percentiles(THRUSTERS, 12, 2, thruster=name)
+        assert found.time.low == pytest.approx(time(0.3 * drawn), rel=1e-11) and found.thruster == name
+        assert row["time"]["quantiles"][1]["low"] == found.time.quantiles[1].low
+    rows = stabilab("stuck", path, "--all-thrusters", *options, "--csv")[1]
+    assert "\ncase: A,time,50 %," in rows and "\ncase: B,time,50 %," in rows
+    with pytest.raises(InputError, match="no thruster D; it has A, B, C"):
+        percentiles(THRUSTERS, 5, thruster="D")
+
+
+@pytest.mark.slow
+def test_a_page_has_the_percentiles_of_its_uncertain_numbers(tmp_path):
+    case = load(SPIN_UP.format("0.02, sigma 5 %"))
+    page = one_case.sections(case, tmp_path, "case")
+    assert "200 draws" in page["percentiles"] and "median" in page["percentiles"] and "no proof" in page["percentiles"]
+    assert "histogram" in [picture["kind"] for picture in page["pictures"]]
+    certain = one_case.sections(load(SPIN_UP.format("0.02")), tmp_path, "certain")
+    assert not certain["percentiles"] and "histogram" not in [picture["kind"] for picture in certain["pictures"]]
+    assert not any("Draws" in what for what, _ in certain["absent"])

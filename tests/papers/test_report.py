@@ -300,7 +300,7 @@ def test_a_report_needs_no_renderer_and_brings_the_meshes(alone):
     """The fixtures are made where nothing can be drawn in 3-D: the page draws its space by itself, in the
     reader's browser."""
     assert "space-data" in alone.read_text(encoding="utf-8")
-    assert {p.suffix for p in (alone.parent / "cases").iterdir()} == {".vtp", ".glb", ".stl", ".png", ".json"}
+    assert {p.suffix for p in (alone.parent / "cases").iterdir()} == {".vtp", ".glb", ".png", ".json"}
 
 
 def test_nothing_is_left_beside_the_report(alone):
@@ -396,3 +396,20 @@ def test_letters_of_printed_formulas_are_typeset_whole():
     ("liquid_cavity in a/x_y.toml", "liquid_cavity in a/x_y.toml")])
 def test_indices_and_powers_are_set_as_in_a_book(plain, page):
     assert str(html.book(plain)) == page
+
+
+@pytest.mark.slow
+def test_the_page_of_a_case_is_the_same_alone_and_in_the_report_on_everything(tmp_path, monkeypatch):
+    """As text: all between <main> and </main>, but for the folder of its pictures. `_cases` writes those of the
+    whole report."""
+    case = stabilab.load(CASES / "minor-axis-100.toml")
+    around = {"command": f"stabilab report {case.path}", "versions": [("stabilab", "1")], "extra": ()}
+    monkeypatch.setattr(own, "done", lambda tasks, *given: [own.section(*task.arguments) for task in tasks])
+    (tmp_path / "one").mkdir()
+    own.pages([case], tmp_path / "one", None, own.Wanted(deep=False), **around)
+    built = own.section("minor-axis-100", [case], tmp_path / "one" / own.FOLDER, own.Wanted(deep=False))
+    (tmp_path / "all" / own.FOLDER).mkdir(parents=True)
+    chapters._cases([case], tmp_path / "all", {"case minor-axis-100": built}, [], around | {"command": "make report"})
+    main = [re.search("<main.*</main>", path.read_text(encoding="utf-8"), re.S)[0].replace(f"{own.FOLDER}/", "")
+            for path in (tmp_path / "one" / "index.html", tmp_path / "all" / own.FOLDER / "minor-axis-100.html")]
+    assert main[0] == main[1] and len(main[0]) > 10_000

@@ -44,7 +44,8 @@ BODY = Body((2000, 1500, "1000.25"), 10)
 RATIONAL = "damper_mass"  # its equations are long: with few others alone
 POLYNOMIAL = [name for name in REGISTRY if name != RATIONAL]
 SUBSETS = [names for n in range(3) for names in combinations(POLYNOMIAL, n)] + [tuple(POLYNOMIAL)]
-VARIANTS = [Scene(BODY, effect_class("charge")("0.01", 100, "0.01", "attitude"), *map(example, others))
+SPRUNG = effect_class("damper_wheel")(17, "2.5", (2, 0, "-1.5"), 3)
+VARIANTS = [Scene(BODY, SPRUNG), Scene(BODY, SPRUNG, example("gyrostat"))] + [Scene(BODY, effect_class("charge")("0.01", 100, "0.01", "attitude"), *map(example, others))
             for others in ((), ("gyrostat",), ("gyrostat", "liquid_cavity"))] + [
     Scene(BODY, effect_class("liquid_cavity").of_sphere(1250, 1, "0.3", "printed"), example("gyrostat"))]
 SCENES = [Scene(BODY, *map(example, names)) for names in SUBSETS] + VARIANTS + [ScaledGyrostat("0.3", "-2/7", (1, -2, "0.7"))]

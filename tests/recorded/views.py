@@ -28,6 +28,7 @@ def of_page(path: Path) -> dict:
     finally:
         one_case.to_file.write_all, one_case.picture = write_all, picture
     return ({name: made[name] for name in PARTS} | {"space": _of_space(made["space"])}
+            | ({"percentiles": made["percentiles"]} if made["percentiles"] else {})
             | {name: made["equations"][name] for name in ("equations", "parameters")}
             | {"pictures": [[one["kind"], one["title"], one["caption"]] for one in made["pictures"]]})
 

@@ -46,6 +46,8 @@ RESULTS = {
     "Rotations": lambda: stabilab.flat_spin(GYROSTAT, momentum="2.8 N m s"),
     "RotationDiagram": lambda: stabilab.bifurcation(
         stabilab.load(CASES / "dual-spin-damper.toml"), {"wheels.flywheel.speed": "0:500 rpm"}, spin="60 rpm"),
+    "TopDiagram": lambda: stabilab.bifurcation(stabilab.load(CASES / "toy-top.toml"),
+                                               {"angular_velocity[3]": "0:30 rev/s"}),
     "Ensemble": lambda: stabilab.ensemble(SCENE, STATES, TIMES)}
 
 

@@ -1,5 +1,7 @@
 """The time to a limit against the tilt of a torque and the momentum of a wheel, and the body as a sketch."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -8,6 +10,7 @@ import stabilab
 from stabilab import errors
 from stabilab.answers.tilt import by_angle
 from stabilab.answers.when import limit_of
+from stabilab.show.plot import over_time
 from tests.shared import case as load
 
 
@@ -100,3 +103,21 @@ def test_the_body_has_its_thrusters_at_their_arms_and_the_axes_of_its_file():
     assert {"x", "y", "z", "major", "minor"} <= {text.get_text().strip() for text in ax.texts}
     names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
     assert "force of R3 on the body, 22 N, stuck" in names and "axes of the file" in names
+
+
+def test_where_the_line_of_a_tilt_begins_is_marked(monkeypatch):
+    """By made times: of four tilts the first two reach nothing within the steps of their runs."""
+    case = load("thruster-stuck-major-axis")
+    exact = over_time.by_angle
+
+    def short(*given, **named):
+        found = exact(*given, **named)
+        none = np.arange(len(found.angles)) < 2
+        return replace(found, earliest=np.where(none, np.inf, found.earliest))
+    monkeypatch.setattr(over_time, "by_angle", short)
+    monkeypatch.setattr(over_time, "ANGLES", np.radians([1.0, 2.0, 5.0, 10.0]))
+    ax = stabilab.plot.tilt(case)
+    line, upright, marks = ax.lines[:3]
+    assert len(marks.get_xdata()) == 2 and max(marks.get_xdata()) < line.get_xdata()[0]
+    assert list(upright.get_xdata()) == [line.get_xdata()[0]] * 2
+    assert "assumed" in ax.get_ylabel()

@@ -97,6 +97,8 @@ EARLIEST = Sentence(
     "closing-earliest-of-forces", "{varied}: the earliest of {forces} forces, each by itself, which is no "
     "proof for those between")
 
+TORQUE_STAYS = ("below: a torque stays after the last closing, so that there is no largest rate for ever; "
+                "ask what one closing time leaves, with stop")
 # --- The latest closing time
 LOOKS = 2000  # closing times looked at after the first that is too late
 WHEEL_LOOKS = 100  # with wheels, where each takes a run: before it
@@ -165,7 +167,7 @@ def bound_of_largest(scene: Scene, states: np.ndarray) -> np.ndarray:
     return np.sqrt(np.minimum(square, states**2 @ D / smallest))
 
 
-def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
+def closing_time(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     """The first closing time after which |omega| does not stay below, rad/s."""
     if not chain.free:
         return _by_runs(chain, links, below)
@@ -195,7 +197,7 @@ def _of_all_forces(chain: Chain, result: Latest, below: Fraction) -> Latest:
         return largest_after(item.base, state) if item.free else largest_of_run(item.base, state)
     first, many = in_front(forces, left)
     chains = [Chain(item, chain.until) for item in first]
-    all_of = [result, *(latest(item, list(links_of(item)), below) for item in chains)]
+    all_of = [result, *(closing_time(item, list(links_of(item)), below) for item in chains)]
     worst = min(all_of, key=lambda item: item.low)
     return replace(worst, level="run" if worst.level in ("exact", "proved") else worst.level,
                    reason=worst.reason.then(EARLIEST(varied=forces.reason, forces=many + 1)),
@@ -371,8 +373,7 @@ def burn(burning: Any, stop: Amount | None = None, below: Amount | None = None) 
     limit = None if below is None else _positive(below, RATE, "below")
     chain = Chain(burning, last)
     if limit is not None and not chain.quiet:
-        raise InputError("below: a torque stays after the last closing, so that there is no largest rate for "
-                         "ever; ask what one closing time leaves, with stop")
+        raise InputError(TORQUE_STAYS)
     links, craft = list(links_of(chain)), chain.case
     switches = tuple(Switch(float(link.begin), link.firing, link.torque, tuple(link.start.tolist()),
                             tuple(map(float, link.levels)))
@@ -382,7 +383,7 @@ def burn(burning: Any, stop: Amount | None = None, below: Amount | None = None) 
                     caveats=(*craft_caveats(craft), *_granted(craft, closed)))
     if limit is None:
         return result
-    out = _of_all_forces(chain, latest(chain, links, limit), limit)
+    out = _of_all_forces(chain, closing_time(chain, links, limit), limit)
     result = replace(result, caveats=(*craft_caveats(craft), *_granted(craft, closed, out)))
     if not 0 < out.low < math.inf:
         return replace(result, latest=out)
@@ -454,10 +455,10 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     chain = Chain(burning)
     limit = asked(chain.base, **ask)
     starts_above(limit, chain.case)
-    result = _first_crossing(chain, limit, ask, until)
+    result = crossing_time(chain, ask, until)
     case = chain.case
     end = until if until is not None else max(chain.closed, Fraction(case.span[1]) if case.span else 0)
-    over = over_forces(chain.burning, ask, Fraction(end), lambda x: _first_crossing(x, limit, ask, until))
+    over = over_forces(chain.burning, ask, Fraction(end), lambda x: crossing_time(x, ask, until))
     caveats = of_case(case) if over is None else (*craft_caveats(case), Caveat(Kind.TILT, over.reason))
     return replace(times_of([result], (), limit.label, chain.base, np.array(case.state), caveats), tilt=over)
 
@@ -466,8 +467,9 @@ NEVER_WITH_THRUSTERS = Sentence(
     "never-with-thrusters", "never, neither while thrusters fire nor after")()
 
 
-def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Fraction | None) -> Found:
-    case, closed = chain.case, chain.closed
+def crossing_time(chain: Chain, ask: dict[str, Any], until: Fraction | None) -> Found:
+    """When a burn first reaches a limit; arguments as of `time_of_burn`. Forces count as stated."""
+    case, closed, limit = chain.case, chain.closed, asked(chain.base, **ask)
     if limit.reached_by(case.exact_state or case.state):
         return Found(0.0, 0.0, "exact", reason=AT_THE_START)
     if until is None and limit.kind == "rate" and chain.free:

@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, printable
+from ...errors import printable
 from ...numbers.exact import precise, sqrt_fraction
 from .imported import Craft
 from .parts import ONE, cosine, of_quaternion, turn, turn_of_radians
-from .rigid_pieces import Frame, Piece, combined, piece, tensor_of, unread
+from .rigid_pieces import Frame, Piece, combined, free, judge_inertials, piece, tensor_of, unread
 from .xml_tree import Element, fractions, tree
 
 ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
@@ -27,6 +27,9 @@ WORDS = {"include": "other files", "keyframe": "positions of keyframes", "actuat
          "geom": "shapes and meshes", "plugin": "plugins"}
 NOT_READ = {"replicate": "copies of bodies", "attach": "bodies of other models",
             "composite": "composite bodies", "flexcomp": "flexible bodies"}
+
+
+COMPILED = "save the model as MuJoCo compiled it (mj_saveLastXML)"
 
 
 class _Compiler(NamedTuple):
@@ -42,8 +45,7 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     compiler = _compiler(root)
     worlds = [*root.all("worldbody")]
     for element in (element for world in worlds for element in world.within() if element.tag in NOT_READ):
-        raise element.fault(f"{NOT_READ[element.tag]} are not read: save the model as MuJoCo compiled it "
-                            "(mj_saveLastXML)")
+        raise element.fault(f"{NOT_READ[element.tag]} are not read: {COMPILED}")
     pieces: list[Piece] = []
     locked: list[str] = []
     outermost: list[tuple[str, Frame, int]] = []
@@ -53,14 +55,11 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
             _walk(element, frame, compiler, pieces, locked)
             if any(item.part.mass for item in pieces[first:]):
                 outermost.append((element.name, frame, first))
-    if not outermost:
-        raise root.fault("no body has an <inertial>, and without mass and moments no motion can be found: "
-                         'add <inertial pos="..." mass="..." diaginertia="..."/> to a body (MuJoCo writes '
-                         "those that it finds from shapes by mj_saveLastXML)")
+    judge_inertials(root, "body", bool(outermost), '<inertial pos="..." mass="..." diaginertia="..."/>',
+                    f"; for moments of shapes {COMPILED}")
     if len(outermost) > 1 and body is None:
-        raise InputError(f"{printable(str(path))}: the bodies "
-                         f"{', '.join(printable(name) for name, _, _ in outermost)} move freely of each "
-                         "other: they are no rigid body; --body NAME takes one body alone")
+        names = ", ".join(printable(name) for name, _, _ in outermost)
+        raise free(root, f"the bodies {names} move freely of each other", "body")
     craft = Craft(root.attributes.get("model", "") or "model")
     unread(craft, root, set(), WORDS)
     return combined(craft, pieces, outermost[0][1], "body", locked, body, path)
@@ -71,16 +70,15 @@ def _compiler(root: Element) -> _Compiler:
     for element in root.all("compiler"):
         settings |= element.attributes
         if element.attributes.get("inertiafromgeom") == "true":
-            raise element.fault("the moments are those of shapes, which are not read: save the model as "
-                                "MuJoCo compiled it (mj_saveLastXML)", "inertiafromgeom")
+            raise element.fault(f"the moments are those of shapes, which are not read: {COMPILED}",
+                                "inertiafromgeom")
         if element.attributes.get("coordinate") == "global":
-            raise element.fault("global coordinates are not read: save the model with a newer "
-                                "MuJoCo", "coordinate")
+            raise element.fault(f"global coordinates are not read: {COMPILED}", "coordinate")
         for key in ("settotalmass", "balanceinertia", "boundmass", "boundinertia"):
             value = element.attributes.get(key)
             if value not in (None, "false", "-1", "0"):
-                raise element.fault(f"{key} changes masses or moments when MuJoCo compiles the model: save "
-                                    "it as compiled (mj_saveLastXML)", key)
+                raise element.fault(f"{key} changes masses or moments when MuJoCo compiles the model: "
+                                    f"{COMPILED}", key)
     sequence = settings.get("eulerseq", "xyz")
     if len(sequence) != 3 or not set(sequence) <= set("xyz") and not set(sequence) <= set("XYZ"):
         raise root.fault(f"compiler: expected eulerseq of three letters x, y, z or X, Y, Z, got {sequence}")
@@ -106,8 +104,7 @@ def _walk(element: Element, frame: Frame, compiler: _Compiler, pieces: list[Piec
     if inertial is None:
         if any(child.tag == "geom" for child in element.children):
             raise element.fault(f"{name}: no <inertial>; MuJoCo finds its mass and moments from its shapes, "
-                                "which are not read: add <inertial>, or save the model as compiled "
-                                "(mj_saveLastXML)")
+                                f"which are not read: add <inertial>, or {COMPILED}")
         pieces.append(piece(name, "0", tensor_of(["0"] * 6), frame, frame, element))
     else:
         pieces.append(_piece(name, inertial, frame, compiler))

@@ -14,7 +14,18 @@ import numpy as np
 from ...errors import printable
 from .imported import Craft
 from .parts import of_quaternion, turn, turn_of_radians
-from .rigid_pieces import Frame, Piece, combined, piece, tensor_of, unread
+from .rigid_pieces import (
+    Frame,
+    Piece,
+    by_name,
+    combined,
+    free,
+    judge_end,
+    judge_inertials,
+    piece,
+    tensor_of,
+    unread,
+)
 from .xml_tree import Element, fractions, tree
 
 MOVING = ("revolute", "revolute2", "continuous", "prismatic", "ball", "universal", "screw", "gearbox")
@@ -34,26 +45,31 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     for nested in model.all("model"):
         raise nested.fault(f"models inside a model are not read: write the links of {nested.name} into "
                            f"{model.name}")
-    links = {link.name: link for link in model.all("link")}
-    if not any(link.one("inertial") for link in links.values()):
-        raise model.fault("no link has an <inertial>, and without mass and moments no motion can be found: "
-                          "add <inertial><mass>...</mass><inertia><ixx>...</ixx> ... </inertia></inertial> "
-                          "to a link"
-                          + ("; files of <include> are not read: import "
-                             f"{_uri(model)}" if _uri(model) else ""))
+    links = by_name(model.all("link"), "link")
+    judge_inertials(model, "link", any(link.one("inertial") for link in links.values()),
+                    "<inertial><mass>...</mass><inertia><ixx>...</ixx> ... </inertia></inertial>",
+                    _included(model))
     frames = _Frames(model)
     pieces = [_piece(link, frames.of(name, link), craft) for name, link in links.items()]
     joints = [*model.all("joint")]
-    _judge_tied(model, links, joints, body)
+    _judge_tied(model, links, joints, body, _included(model))
     unread(craft, model, set(), WORDS)
+    if uris := _uris(model):
+        craft.caveats.append("of the links that the imported file has itself: other files that it includes "
+                             f"are not read ({', '.join(uris)})")
     locked = [joint.name for joint in joints if joint.attributes.get("type") in MOVING]
     return combined(craft, pieces, Frame(), "link", locked, body, path)
 
 
-def _uri(model: Element) -> str:
-    include = next(model.all("include"), None)
-    uri = include.one("uri") if include else None
-    return uri.text.strip() if uri else ""
+def _uris(model: Element) -> list[str]:
+    """What the model includes."""
+    return [uri.text.strip() for include in model.all("include") if (uri := include.one("uri"))]
+
+
+def _included(model: Element) -> str:
+    """What is to be done where something is missing that an included file may have."""
+    uris = _uris(model)
+    return f"; files of <include> are not read: import {uris[0]}, or write all into one file" if uris else ""
 
 
 def _model(root: Element) -> Element:
@@ -94,8 +110,7 @@ class _Frames:
         if relative not in ("", "__model__"):
             if relative not in self.elements:
                 raise (pose or element).fault(f"no frame {relative}: expected a link, a joint or a frame of "
-                                              "the model",
-                                              "relative_to")
+                                              f"the model{_included(self.model)}", "relative_to")
             base = self.of(relative, self.elements[relative], (*seen, name))
         return base.then(_pose(pose))
 
@@ -138,21 +153,20 @@ def _number(element: Element | None, tag: str, default: str) -> str:
     return child.numbers(child.text, 1)[0] if child else default
 
 
-def _judge_tied(model: Element, links: dict[str, Element], joints: list[Element], body: str | None) -> None:
-    """A fault where joints do not tie all links to each other."""
+def _judge_tied(model: Element, links: dict[str, Element], joints: list[Element], body: str | None,
+                more: str) -> None:
+    """A fault where joints do not tie all links to each other. more: what else to do about one that is
+    missing."""
     groups = {name: {name} for name in links}
     for joint in joints:
         ends = []
         for tag in ("parent", "child"):
             name = _text(joint, tag, "")
-            if name not in links and not (tag == "parent" and name == "world"):
-                raise joint.fault(f"joint {joint.name}: no link {name or 'is named'}: expected one of the "
-                                  "links", tag)
+            judge_end(joint, name, [*links, *["world"] * (tag == "parent")], tag, more)
             ends.append(name)
         if ends[0] in groups:
             union = groups[ends[0]] | groups[ends[1]]
             groups |= dict.fromkeys(union, union)
     apart = [name for name in links if name not in groups[next(iter(links))]]
     if apart and body is None:
-        raise links[apart[0]].fault(f"no joint ties link {apart[0]} to link {next(iter(links))}: they are no "
-                                    "rigid body; --body NAME takes one link alone")
+        raise free(links[apart[0]], f"no joint ties link {apart[0]} to link {next(iter(links))}", "link")

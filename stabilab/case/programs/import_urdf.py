@@ -12,7 +12,18 @@ import numpy as np
 
 from .imported import Craft
 from .parts import turn_of_radians
-from .rigid_pieces import Frame, Piece, combined, piece, tensor_of, unread
+from .rigid_pieces import (
+    Frame,
+    Piece,
+    by_name,
+    combined,
+    free,
+    judge_end,
+    judge_inertials,
+    piece,
+    tensor_of,
+    unread,
+)
 from .xml_tree import Element, fractions, tree
 
 MOVING = ("revolute", "continuous", "prismatic")
@@ -33,22 +44,16 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     if any(element.tag in ("macro", "property", "include", "arg") for element in root.children):
         raise root.fault("this is a xacro file, whose macros are not read: `xacro FILE > robot.urdf` writes "
                          "the URDF")
-    links = {}
-    for link in root.all("link"):
-        if link.name in links:
-            raise link.fault(f"a second link {link.name}: names of links differ", "name")
-        links[link.name] = link
-    if not any(link.one("inertial") for link in links.values()):
-        raise root.fault("no link has an <inertial>, and without mass and moments no motion can be found: "
-                         'add <inertial><mass value="..."/><inertia ixx="..." .../></inertial> to a link')
+    links = by_name(root.all("link"), "link")
+    judge_inertials(root, "link", any(link.one("inertial") for link in links.values()),
+                    '<inertial><mass value="..."/><inertia ixx="..." .../></inertial>')
     joints = [*root.all("joint")]
-    frames, locked, free = _placed(root, links, joints)
+    frames, locked, loose = _placed(root, links, joints)
     pieces = [_piece(link, frames[name]) for name, link in links.items() if name in frames]
     heavy = {item.name for item in pieces if item.part.mass}
-    for joint, below in free:
+    for joint, below in loose:
         if heavy & below and heavy - below and body is None:
-            raise joint.fault(f"{joint.name} lets links with mass move freely of each other: they are no "
-                              "rigid body; --body NAME takes one link alone")
+            raise free(joint, f"{joint.name} lets links with mass move freely of each other", "link")
     craft = Craft(root.name or "robot")
     unread(craft, root, set(), WORDS)
     return combined(craft, pieces, Frame(), "link", locked, body, path)
@@ -66,10 +71,7 @@ def _placed(root: Element, links: dict[str, Element], joints: list[Element]
         for tag in ("parent", "child"):
             end = joint.one(tag)
             name = end.attributes.get("link", "") if end else ""
-            if name not in links:
-                raise (end or joint).fault(f"joint {joint.name}: no link {name or 'is named'}: expected one "
-                                           "of the links",
-                                           "link")
+            judge_end(joint, name, links, tag)
             ends.append(name)
         if ends[1] in parents:
             raise joint.fault(f"link {ends[1]} is the child of two joints: a description is a tree", "child")
@@ -90,9 +92,9 @@ def _placed(root: Element, links: dict[str, Element], joints: list[Element]
             parent, joint = parents[child]
             frames[child] = frames[parent].then(_origin(joint))
     locked = [joint.name for joint in joints if joint.attributes["type"] in MOVING]
-    free = [(joint, _beyond(child, parents)) for child, (_, joint) in parents.items()
+    loose = [(joint, _beyond(child, parents)) for child, (_, joint) in parents.items()
             if joint.attributes["type"] in FREE]
-    return frames, locked, free
+    return frames, locked, loose
 
 
 def _beyond(child: str, parents: dict[str, tuple[str, Element]]) -> set[str]:

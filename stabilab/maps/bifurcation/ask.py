@@ -42,6 +42,7 @@ from .eliminated import Eliminated, at_rational
 from .equations import LEAF, Conics, Diagram, Event, Family, OnLine, Piece, State, chosen
 from .plane import Plane, plane
 from .rotations import RotationDiagram, rotation_diagram
+from .tops import TopDiagram, is_top, top_diagram
 
 # --- Where separatrices connect
 BITS = 160
@@ -352,7 +353,8 @@ def _zero(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
 # --- The question
 def bifurcation(case: Given, vary: Mapping[str, Any] | Sequence[tuple[str, Any]],
                 curve: bool = False, *, momentum: Amount | None = None, spin: Amount | None = None,
-                state: Start | None = None, span: Span | None = None) -> Diagram | Plane | RotationDiagram:
+                state: Start | None = None, span: Span | None = None
+                ) -> Diagram | Plane | RotationDiagram | TopDiagram:
     """All equilibria of a case over the range of one number or of two, exactly: where they appear, vanish or
     go to infinity, and which are stable.
 
@@ -365,8 +367,9 @@ def bifurcation(case: Given, vary: Mapping[str, Any] | Sequence[tuple[str, Any]]
 
     momentum: |H|, N m s or text with a unit: instead all rotations of a free body at it, with losses inside
     or without, over the speed or momentum of a wheel; spin: rad/s or text with a unit: the rotation at this
-    rate about the wheels' own principal axis. Raises InputError for what cannot be
-    eliminated.
+    rate about the wheels' own principal axis. Of a symmetric top in a field: its steady motions over the
+    range of its spin, its weight or the momentum of a wheel along its axis. Raises InputError for what cannot
+    be eliminated.
     """
     case = written(case, state, span)
     if momentum is not None or spin is not None:
@@ -376,6 +379,8 @@ def bifurcation(case: Given, vary: Mapping[str, Any] | Sequence[tuple[str, Any]]
         return rotation_diagram(case, _pairs(vary), *(
             None if value is None else in_si(value, dimension, name)
             for value, dimension, name in ((momentum, MOMENTUM, "momentum"), (spin, RATE, "spin"))))
+    if (top := _of_top(case, vary, curve)) is not None:
+        return top
     family = family_of(case, vary)
     try:
         return with_connections(diagram(family, curve)) if len(family.spans) == 1 else plane(family, curve)
@@ -385,13 +390,31 @@ def bifurcation(case: Given, vary: Mapping[str, Any] | Sequence[tuple[str, Any]]
                          "its ends") from None
 
 
+def _of_top(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]],
+            curve: bool) -> TopDiagram | None:
+    """The diagram of a symmetric top; None of another scene."""
+    path, text = place_and_text("bifurcation", case)
+    read = read_text(path, text)
+    if not is_top(read.scene):
+        return None
+    if curve:
+        raise InputError(f"{read.place}: curve: a top has no curve of equilibria in its rates: take curve "
+                         "away")
+    return top_diagram(read, _certain(parsed(path, text)[0]), _pairs(vary))
+
+
+def _certain(data: dict[str, Any]) -> dict[str, Any]:
+    """The data of a file without what speaks of its own values."""
+    return {key: value for key, value in data.items() if key not in ("sweep", "expect")}
+
+
 def family_of(case: Case | str | os.PathLike[str],
               vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> Family:
     """The scenes over the ranges. Raises InputError for what cannot vary, and for effects that no diagram
     covers."""
     path, text = place_and_text("bifurcation", case)
     read = read_text(path, text)
-    data = {key: value for key, value in parsed(path, text)[0].items() if key not in ("sweep", "expect")}
+    data = _certain(parsed(path, text)[0])
     family = Family(read, data, spans_of(data, _pairs(vary)))
     scene = effective(read.scene)
     if not scene.plain:

@@ -149,8 +149,13 @@ COMPONENTS = {"omega": ("omega1", "omega2", "omega3"), "sigma": ("sigma1", "sigm
               "momentum_turn": ("turn of the angular momentum",),
               "rotation_period": ("period of rotation",),
               "half_precession": ("time of half a turn",),
+              "rotation_and_precession": ("period of rotation", "period of precession"),
+              "cone": ("angle of the cone",),
+              "libration_in_plane": ("period in plane",),
+              "libration_out_of_plane": ("period out of plane",),
               "libration_periods": ("period of the wobble", "period of the libration in longitude")}
-UNITS = {"sigma": "", "angle3": "rad", "off_linear": "rad", "momentum_turn": "rad"}  # others: of the motion
+UNITS = {"sigma": "", "angle3": "rad", "off_linear": "rad", "momentum_turn": "rad",
+         "cone": "deg"}  # others: of the motion
 
 
 @dataclass(frozen=True)

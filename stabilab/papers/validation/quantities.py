@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 def reproduced(printed, time: float, rates=None) -> list[float]:
     """The quantity (omega or sigma) at a time as the method and step of `printed.scheme` leave it. rates: the
     exact ones there, for the leapfrog rule."""
+    if printed.scheme["method"] == "rod":
+        return [math.sqrt(3) / 2 * float(printed.scheme["of"])]
     motion, step = printed.motion, float(printed.scheme["step"])
     degrees = 180 / math.pi if motion.unit == "deg/s" else 1.0
     if printed.scheme["method"] == "leapfrog":
@@ -81,7 +83,8 @@ RULES = {"rk4": rk4, "ab2": ab2}
 METHOD_LABELS = {"rk4": "the classical Runge-Kutta rule of order 4 at {step} s",
          "ab2": "the Adams-Bashforth rule of order 2, begun by Euler's, at {step} s",
          "leapfrog": "rates at the middle of the next step of {step} s, as a leapfrog rule leaves them (- "
-                     "h^2/24 omega'')"}
+                     "h^2/24 omega'')",
+         "rod": "sqrt(3)/2 of the period in plane, {of} s, the ratio of a thin rod,"}
 
 
 def _half_a_step_later(rates: Callable[[list[float]], list[float]], omega: Sequence[float], step: float):
@@ -274,8 +277,37 @@ def libration_periods(motion, at: At, numbers) -> list:
     return [_closed(2 * math.pi / rate / DAY, numbers) for rate in first.frequencies[:2]]
 
 
-def _closed(value: float, numbers: Digits):
-    return numbers.around(numbers.ball(Fraction(value)), numbers.ball(Fraction(value) * CLOSED))
+def rotation_and_precession(motion, at: At, numbers) -> list:
+    """The periods with which the rates of a free body repeat and its axis goes round the momentum, s."""
+    result = attitude(load(motion.case))
+    return [_closed(value, numbers, result.error)
+            for value in (result.rotation_period, result.precession_period)]
+
+
+def cone(motion, at: At, numbers) -> list:
+    """The largest angle between the axis of the mode and the angular momentum, deg."""
+    result = attitude(load(motion.case))
+    return [_closed(math.degrees(result.cone[1]), numbers, result.error)]
+
+
+def libration_in_plane(motion, at: At, numbers) -> list:
+    """The longer period of the first stable family of attitudes on a circular orbit, s: it is in plane."""
+    return [_closed(2 * math.pi / _librations(motion)[0], numbers)]
+
+
+def libration_out_of_plane(motion, at: At, numbers) -> list:
+    """The shorter one, out of plane."""
+    return [_closed(2 * math.pi / _librations(motion)[1], numbers)]
+
+
+def _librations(motion):
+    return circular_orbit(motion.case).equilibria.families[0].frequencies
+
+
+def _closed(value: float, numbers: Digits, error: float = 0.0):
+    """A ball about a number in doubles; error: relative, where it is larger than that of a closed form."""
+    share = max(CLOSED, Fraction(error))
+    return numbers.around(numbers.ball(Fraction(value)), numbers.ball(Fraction(value) * share))
 
 
 def omega(motion, at: At, numbers) -> list:

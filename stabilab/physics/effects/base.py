@@ -77,6 +77,7 @@ class Effect(metaclass=Asked):
     name: ClassVar[str] = ""
     article: ClassVar[str] = ""  # of its name in a sentence; "" of what is not counted
     keys: ClassVar[tuple[str, ...]] = ()
+    certain: ClassVar[tuple[str, ...]] = ()  # those whose numbers take no uncertainty: directions, words
     works: ClassVar[bool] = True  # False promises that the effect does no work; the law test holds it to that
     small: ClassVar[bool] = False  # True: left out of the undisturbed motion along which a liquid is carried
     keeps_volume: ClassVar[bool] = True  # False: the flow may shrink volumes

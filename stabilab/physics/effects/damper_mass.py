@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class DamperMass(Effect):
     """A point of mass m on a line in the body, at p + x n, p where its spring is relaxed and n a unit vector,
-    with a spring k and a dashpot c: a nutation damper (Hughes, Spacecraft Attitude Dynamics, 1986, sections
-    3.5 and 5.3; Likins, J. Spacecraft 4(12), 1967).
+    with a spring k and a dashpot c: a nutation damper (Roithmayr and Hodges, Dynamics: Theory and Application
+    of Kane's Method, section 9.6, has the particle across its line from the mass centre).
 
     mass: m, kg, part of the body's whole mass. place: p, m, from the mass centre of the whole where x = 0,
     about which the moments of the body are those of the whole. line: n, of any length. stiffness: k, N/m;
@@ -49,6 +49,7 @@ class DamperMass(Effect):
     takes: ClassVar[str] = "inside"
     agent: ClassVar[str] = "the damper"
     keys: ClassVar[tuple[str, ...]] = ("mass", "place", "line", "stiffness", "coefficient")
+    certain: ClassVar[tuple[str, ...]] = ("line",)
     symbols: ClassVar[tuple[str, ...]] = ("mud", "ks", "cs", "rd1", "rd2", "rd3", "nd1", "nd2", "nd3")
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False

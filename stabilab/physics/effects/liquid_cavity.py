@@ -97,6 +97,7 @@ class LiquidCavity(Effect):
     takes: ClassVar[str] = "inside"
     agent: ClassVar[str] = "the liquid"
     keys: ClassVar[tuple[str, ...]] = ("density", "viscosity", "P0", "radius", "torque")
+    certain: ClassVar[tuple[str, ...]] = ("torque",)
     symbols: ClassVar[tuple[str, ...]] = ("kappa",)
     isotropic: ClassVar[bool] = True
     small: ClassVar[bool] = True

@@ -43,7 +43,9 @@ def groups(case: Case, units: Units) -> list[dict[str, Any]]:
                       *_around(abs(size) or _usual_torque(case))),
               slider("tilt", "tilt off it", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
               slider("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
-    result = [("Torque along", axis, torque),
+    if off_axes(case):  # about axes that the user did not write an angle would say little
+        axis, torque = 0, _in_file(case, units)
+    result = [("Torque along" if axis else "Torque, axes of the file", axis or None, torque),
              ("Wheel and moments" if units.scaled else "Wheel momentum about axis", None, _wheel(case)),
              ("Rates at the start", None, _start(case, units)),
              ("Moments of inertia about axis", None, _moments(case))]
@@ -58,6 +60,19 @@ def vector(case: Case, name: str) -> tuple[float, ...]:
     if scene.variables == "scaled":
         return tuple(map(float, scene.mu)) if name == "torque" else (float(scene.a), float(scene.b))
     return tuple(map(float, scene.vector("constant_torque" if name == "torque" else "gyrostat")))
+
+
+def off_axes(case: Case) -> bool:
+    """Whether a body's torque is off its principal axes, so that it is set by its components in the file."""
+    return isinstance(case.scene, Scene) and sum(v != 0 for v in case.scene.vector("constant_torque")) > 1
+
+
+def _in_file(case: Case, units: Units) -> list[dict[str, Any]]:
+    own = case.scene.vector("constant_torque")
+    values = tuple(map(float, own if case.frame is None else case.frame.back(own)))
+    low, high = _around(max(map(abs, values)))
+    return [slider(f"torque{n}", letter, units.of("N m")[0], value, low, high)
+            for n, (letter, value) in enumerate(zip("xyz", values), 1)]
 
 
 def direction(torque: tuple[float, ...]) -> tuple[int, float, float, float]:
@@ -146,9 +161,10 @@ LARGEST = 1e8  # beyond it doubles that are drawn run into overflows and lost di
 
 
 def changed(case: Case, query: dict[str, Any], units: Units) -> tuple[Case, str]:
-    """(the case with the changes of a request, words on what was left out). query: {"torque": None or {axis,
-    size, tilt, azimuth}, "inertia", "wheel" and "start": a number in text, or None for the case's own, for
-    each slider}. Raises InputError for what is no such request."""
+    """(the case with the changes of a request, words on what was left out). query: {"torque": None, {axis,
+    size, tilt, azimuth} or {file: three components along the axes of the file}, "inertia", "wheel" and
+    "start": a number in text, or None for the case's own, for each slider}. Raises InputError for what is no
+    such request."""
     scaled = case.scene.variables == "scaled"
     torque, inertia, start = query.get("torque"), _numbers(query, "inertia", 3), _numbers(query, "start", 3)
     wheel = _numbers(query, "wheel", 2 if scaled else 3)
@@ -158,7 +174,7 @@ def changed(case: Case, query: dict[str, Any], units: Units) -> tuple[Case, str]
     if inertia is not None:
         _set_inertia(base, case, inertia)
     if torque is not None:
-        _set_torque(base, torque, scaled)
+        _set_torque(base, torque, case)
     if wheel is not None:
         _set_wheel(base, case, wheel, scaled)
     if start is not None or case.state is None:
@@ -221,8 +237,12 @@ def _set_inertia(base: dict[str, Any], case: Case, values: list[Any]) -> None:
                     **_kept(old, "mass", "centre_of_mass")}
 
 
-def _set_torque(base: dict[str, Any], query: Mapping[str, Any], scaled: bool) -> None:
+def _set_torque(base: dict[str, Any], query: Mapping[str, Any], case: Case) -> None:
+    scaled = case.scene.variables == "scaled"
     axis = query.get("axis") if isinstance(query, dict) else None
+    if isinstance(query, dict) and "file" in query and not scaled:
+        _set_body_torque(base, _from_file(query, case))
+        return
     if type(axis) is not int or axis not in (1, 2, 3):  # neither true nor 1.0
         raise InputError(f"torque: expected an axis of 1, 2 or 3, got {shown(axis)}")
     torque = torque_of(axis, *(float(number(query.get(name), name)) for name in ("size", "tilt", "azimuth")))
@@ -230,6 +250,23 @@ def _set_torque(base: dict[str, Any], query: Mapping[str, Any], scaled: bool) ->
     if scaled:
         base["scaled"]["mu"] = numbers
         return
+    _set_body_torque(base, numbers)
+
+
+def _from_file(query: Mapping[str, Any], case: Case) -> list[Any]:
+    """The components along the principal axes of a torque by those along the axes of the file; null: the
+    case's own."""
+    scene: Any = case.scene
+    own = scene.vector("constant_torque")
+    changed = _numbers(dict(query), "file", 3) or [None] * 3
+    values = [old if new is None else Fraction(new)
+              for old, new in zip(own if case.frame is None else case.frame.back(own), changed)]
+    if case.frame is None or case.frame.as_given:
+        return [exact_text(v) for v in values]
+    return [Written(f"{float(v) + 0.0:.12g}") for v in case.frame.turned(values)]
+
+
+def _set_body_torque(base: dict[str, Any], numbers: list[Any]) -> None:
     for thruster in base.get("thrusters", ()):
         thruster["stuck"] = False  # its torque is in that of the slider
     base.setdefault("effects", {})["constant_torque"] = {"torque": numbers}

@@ -37,6 +37,7 @@ from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, QuadraticForm
 from ...reasons import broad
 from ...verify.numbers import shown
+from ..assumed import Assumed
 from ..data import plain
 from ..space import limit_time, packed
 from ..turns.band import Long
@@ -213,8 +214,9 @@ def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) ->
 
 
 def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], path: list[tuple[float, ...]],
-              units: Units) -> dict[str, Any]:
-    """Rates and their size over time, with known extremes over all time and the limits of the case."""
+              units: Units, supposed: Assumed | None = None) -> dict[str, Any]:
+    """Rates and their size over time, with known extremes over all time and the limits of the case; where it
+    states none, and the motion comes so far, the one supposed."""
     name, item = units.times(times[-1])
     label, rate = units.rates
     symbol = "x" if units.scaled else "ω"
@@ -225,7 +227,10 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
         period = None if motion.period is None else motion.period * item
         if (at := limit_time(motion)) is not None:
             low: Any = motion.first and float(motion.first[1].low)
-            reached = [low * item, at * item] if broad(low, at) else [at * item]
+            reached = [low * item, at * item] if broad(low, at) else at * item
+    passed = supposed is not None and max(math.hypot(*x) for x in path) >= supposed.rate
+    if supposed is not None and supposed.time is not None:
+        reached = supposed.time * item
     return {"times": bag.add("float32", [t * item for t in times]),
             "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
             "extremes": extremes, "period": period, "reached": reached,
@@ -233,7 +238,8 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
             "y": with_unit("x" if units.scaled else "rate", label),
             "names": [*(f"{symbol}{n}" for n in (1, 2, 3)), f"|{symbol}|"],
             "size": bag.add("float32", [math.hypot(*x) * rate for x in path]),
-            "limits": [float(v) * rate for v in _limits(case)]}
+            "assumed": passed, "limits": [float(v) * rate for v in (
+                [supposed.rate] if supposed and passed else _limits(case))]}
 
 
 def _limits(case: Case) -> list[Any]:
@@ -316,11 +322,13 @@ def turns_of(case: Case, motion: Motion, until: float, units: Units) -> tuple[Lo
     return resolved
 
 
-def film(case: Case, motion: Motion | None, until: float, bag: Bag, units: Units) -> dict[str, Any]:
-    """The body as it turns in that time, as `templates/turning.js` draws it. motion: what is known of it."""
+def film(case: Case, motion: Motion | None, until: float, bag: Bag, units: Units,
+         limit: Assumed | None = None) -> dict[str, Any]:
+    """The body as it turns in that time, as `templates/turning.js` draws it. motion: what is known of it;
+    limit: as of `turning.turn`."""
     _, turning = _plots()
     item = replace(turning.subject(case, span=until), known=motion)
-    result = turning.turn(item, FRAMES)
+    result = turning.turn(item, FRAMES, limit)
     drawn = turning.drawn(item, result, units.times(until), units.rates, units,
                           lambda rows: bag.add("float32", rows.ravel().tolist()))
     return drawn | {"names": [units.axes.label(n) for n in (1, 2, 3)],

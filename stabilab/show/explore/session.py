@@ -22,7 +22,7 @@ from ...case.read import Case
 from ...case.write import data_of
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
-from ...orbit.result import Motion, Needs
+from ...orbit.result import Fate, Motion, Needs
 from ...orbit.separatrix.saddles import REACH
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
@@ -35,6 +35,7 @@ from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import frame, limiting, space
+from ..assumed import assumed
 from ..axes import with_moments
 from ..report.tables import tiles
 from ..space import natural, seen
@@ -149,29 +150,33 @@ class Session:
             clicked = pictures.clicked(self._twin(case), case.state, request["click"], self.units)
             case, note = changed(self.case, request | {"start": clicked, "click": None}, self.units)
         result, text = self._motion(case, moving, stopped)
-        lines = text, ""
+        lines, runs = (text, ""), None
         if result is not None:
             result = judged(case, result, brief=True)
             if not moving and present("numpy"):
                 result = with_ending(case, result)
-            if case.limits is not None and not moving and present("numpy"):
-                from ...answers.when import with_first
-                result = with_first(case, result, QUICK)
+            if not moving and present("numpy") and (case.limits is not None or result.fate is Fate.SPIN_UP):
+                from ...answers.when import time_to, with_first
+                runs = time_to
+                result = result if case.limits is None else with_first(case, result, QUICK)
             text, lines = headline(case, result, units), two_lines(case, result, units)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
         form = None if twin is None else twin.quadratic()
-        until, cut = _length(case, result, form, moving)
+        supposed = self._once("assumed", (case.scene, case.state, case.limits, moving), lambda: assumed(
+            case, case.scene, case.state, result, runs))
+        until, cut = _length(case, result, form, moving, supposed and supposed.time)
         times, path = self._once("line", (case.scene, case.state, until, moving),
                                  lambda: line(case, form, until, moving))
         full = times, path
         if result is not None and result.ending is not None and result.ending.until is not None:
             end = seen(case.span, result, until)[1]  # past it, though its turns are too many for the space
             full = self._once("whole", (case.scene, case.state, end), lambda: pictures.path(case, end))
-        long = self._turns(case, result, times, path, until, moving)
+        long = self._turns(case, result, times, path, until, moving, supposed)
         cut = "" if long is not None and long[2] else cut
-        picture = self._space(bag, case, twin, result, at_rest, times, path, request.get("box"), moving, long)
+        picture = self._space(bag, case, twin, result, at_rest, times, path, request.get("box"), moving,
+                              supposed, long)
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
         shown = full[0][-1] if math.hypot(*case.state) * full[0][-1] <= FILM else times[-1]
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
@@ -185,10 +190,11 @@ class Session:
                 "note": " ".join(map(capital, filter(None, notes))),
                 "toml": case.text, "axes": _named(units), "space": picture,
                 "rows": [*([["axes", lettered(about_axes)]] if about_axes else []),
-                         *([] if result is None else rows(case, result, units))],
+                         *([] if result is None else rows(case, result, units)),
+                         *([["limit", supposed.words(units)]] if supposed else [])],
                 "plane": None if twin is None else pictures.drawn_planes(bag, twin, case.state, units),
-                "time": pictures.over_time(bag, case, result, *full, units),
-                "film": pictures.film(case, result, shown, bag, units) if turns else None}
+                "time": pictures.over_time(bag, case, result, *full, units, supposed),
+                "film": pictures.film(case, result, shown, bag, units, supposed) if turns else None}
         built["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else pictures.NOT_YET
         return built | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
@@ -232,25 +238,27 @@ class Session:
         self._cost["equilibria"] = max(self._cost.get("equilibria", 0.0), time.process_time() - began)
         return result
 
-    def _turns(self, case, result, times, path, until, moving):
+    def _turns(self, case, result, times, path, until, moving, supposed):
         """(what is drawn of a motion of many turns, the places from which that is made, whether of all of it:
         once the slider rests); None of one of few."""
-        path = space.near_part(times, path, result)
+        reached = supposed and supposed.time
+        path = space.near_part(times, path, result, reached)
         times = times[:len(path)]
         key = case.scene, case.state, until, moving, result is None
         if result is not None and not moving and present("numpy") and band.often(path) > band.MANY:
             long = self._once("turns", key, lambda: pictures.turns_of(
-                case, result, seen(case.span, result, until)[1], self.units))
+                case, result, seen(case.span, result, until, reached)[1], self.units))
             return None if long is None else (*long, True)
         long = self._once("turns", key, lambda: band.along(
-            times, path, self.units.times(times[-1]), result and moment(result)))
+            times, path, self.units.times(times[-1]), result and moment(result, reached)))
         return None if long is None else (long, path, False)
 
-    def _space(self, bag, case, twin, result, at_rest, times, path, request, moving, long):
-        nearby = space.near_part(times, path, result) if long is None else long[1]
+    def _space(self, bag, case, twin, result, at_rest, times, path, request, moving, supposed, long):
+        nearby = (space.near_part(times, path, result, supposed and supposed.time) if long is None
+                  else long[1])
         bare, ghost = (None, False) if twin is None else _without_tilt(twin)
         marks = space.marks_of(case.state, result, at_rest)
-        limit = space.limit_of(case)
+        limit = space.limit_of(case, supposed)
         rests = [*space.beside_limit(limit, nearby), *([] if moving else space.nearest(at_rest, nearby))]
         box = space.box_of(nearby, marks + rests, reaching=True, asked=request, kept=moving or ghost)
         branches, text = (), pictures.why(case.scene)
@@ -284,13 +292,14 @@ def _named(units: Units) -> list[str]:
     return [units.axes.short(n) for n in (1, 2, 3)]
 
 
-def _length(case: Case, result: Motion | None, form: QuadraticForm | None, moving: bool) -> tuple[float, str]:
+def _length(case: Case, result: Motion | None, form: QuadraticForm | None, moving: bool,
+            reached: float | None) -> tuple[float, str]:
     """(how far a motion is drawn, what is said where that is less than every other view shows): so many
-    radians of turn at most. form: its rates, where they are quadratic."""
+    radians of turn at most. form: its rates, where they are quadratic; reached: as of `space.seen`."""
     rate, torque = math.hypot(*case.state), math.hypot(*form.coefficients[3]) if form is not None else 0.0
     radian = 1.0 / max(rate, math.sqrt(torque)) if rate or torque else 1.0
     largest, alone = TURNS[moving] * radian, natural(case.scene, case.state)
-    span = case.span or (0.0, alone) if result is None else seen(case.span, result, alone)
+    span = case.span or (0.0, alone) if result is None else seen(case.span, result, alone, reached)
     wanted = abs(reach_of(span))
     if wanted <= largest or moving:
         return min(wanted, largest), ""

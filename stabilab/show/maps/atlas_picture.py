@@ -192,7 +192,9 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
     for n, location in zip(here, on_map(atlas.named_directions[here])):
         point = atlas.named[n]
         on_axis = point.level == AXES
-        ax.plot(*location, marker="o" if on_axis else "*", markersize=4 if on_axis else 10, color="white",
+        record = atlas.named_records[n]
+        ax.plot(*location, marker="o" if on_axis else "*", markersize=5 if on_axis else 10,
+                color=kind_colour(int(record["fate"]), int(record["spin_axis"])),
                 markeredgecolor=style.BLACK, markeredgewidth=0.9,
                 linestyle="none", clip_on=False, zorder=3)
         pole = on_axis and point.number >= 4  # its name stands left of it: thrusters have theirs on the right
@@ -298,13 +300,23 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
                 for colour, phrase, cells in printed if cells.any()]
     else:
         _, _, of, text = classes(atlas, kind)
-        rows = list(zip(text, of))
+        rows = [*zip(text, of), *(_single(atlas) if kind == "fate" else ())]
     if rows:
         axes[-1].legend(*style.explained(rows), loc="upper center", bbox_to_anchor=(0.5, 0.0),
                         ncols=min(2, len(rows)), borderaxespad=0.2)
 
 
+def _single(atlas: Atlas) -> list[tuple[str, dict[str, Any]]]:
+    """Rows of the fates that no cell has, but single directions: a motion may stay bounded exactly on an axis
+    and nowhere beside it."""
+    cells = set(atlas.records["fate"].tolist())
+    return [(f"{kind_words(atlas, fate, 0)}: on single directions", POINT | {
+        "markerfacecolor": kind_colour(fate, 0)})
+        for fate in dict.fromkeys(atlas.named_records["fate"].tolist()) if fate not in cells]
+
+
 # --- An atlas as one page that needs no network: the map or a globe, and what the pointer is on in words
+POINT = {"marker": "o", "markersize": 5, "markeredgecolor": style.BLACK, "linestyle": "none"}
 SHADES = 60  # colours of the map of times
 TITLES = {"fate": "the fate", "when": "the time to the limit", "level": "how well the fate is known",
           "equilibria": "the number of equilibria",

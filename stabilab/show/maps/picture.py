@@ -267,7 +267,7 @@ def _boundary(ax, data, plan, moving, index) -> dict[str, Any]:
     if not exact and margin is None:
         return {}
     route = (lambda at, along: _exact(plan, index, dims, at, along,
-                                    fates)) if exact else (lambda at, along: _zero(margin, at, along))
+                                    fates)) if exact else (lambda at, along: zero_between(margin, at, along))
     x, y = (np.asarray(data[name]) for name in moving[:2])
     segments = segments_of(fates, x, y, route)
     look = style.MEANING["separatrix"] | {"linewidth": 1.4}
@@ -281,12 +281,24 @@ def _exact(plan, index, dims, at, along, fates):
     return changes(plan, index, dims[along], rows, fates[at[:, 0], at[:, 1]] == Fate.SPIN_UP)
 
 
-def _zero(margin, at, along):
-    """Where the straight line between two margins is zero; half way where one of them is not finite."""
-    here, there = margin[at[:, 0], at[:, 1]], margin[at[:, 0] + (along == 0), at[:, 1] + (along == 1)]
+def zero_between(margin: np.ndarray, at: np.ndarray, along: int) -> np.ndarray:
+    """Where the straight line between two margins is zero. Where a motion has none, as no barrier is ahead,
+    the line through the two on the other side goes on, to the next point at most; half way without these."""
+    step = np.array([along == 0, along == 1], int)
+
+    def value(steps: int) -> np.ndarray:
+        place = at + steps * step
+        inside = (place >= 0).all(axis=1) & (place < margin.shape).all(axis=1)
+        found = margin[tuple(np.where(inside[:, None], place, 0).T)]
+        return np.where(inside & np.isfinite(found), found, np.nan)
+    before, here, there, after = map(value, (-1, 0, 1, 2))
     with np.errstate(invalid="ignore", divide="ignore"):
-        fraction = here / (here - there)
-    return np.where(np.isfinite(fraction) & (fraction >= 0) & (fraction <= 1), fraction, 0.5)
+        tries = (here / (here - there), here / (before - here), 1 - there / (after - there))
+    fraction = np.full(len(at), 0.5)
+    for tried in reversed(tries):
+        fraction = np.where(np.isfinite(tried), np.clip(tried, 0, 1), fraction)
+    crossed = np.isnan(here) | np.isnan(there) | (here * there <= 0)  # else no line between them has a zero
+    return np.where(crossed, fraction, 0.5)
 
 
 def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray,

@@ -16,11 +16,23 @@ from .subject import Subject, measures, subject
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ...maps.percentiles import Percentiles
+
 DRAWS, SEED = 500, 1
 BAR: dict[str, Any] = {"color": style.VIOLET, "alpha": 0.55}
 MEDIAN: dict[str, Any] = {"color": style.BLACK, "linewidth": 1.4}
 ENDS: dict[str, Any] = {"color": style.BLACK, "linewidth": 1.0, "linestyle": "--"}
 BOUNDS: dict[str, Any] = {"facecolor": style.GREY, "alpha": 0.3, "linewidth": 0}
+
+
+def _spread(result: Percentiles) -> Any:
+    """The distribution that is drawn."""
+    return result.largest if result.time is None else result.time
+
+
+def is_known(result: Percentiles) -> bool:
+    """Whether some draw has a value to be drawn."""
+    return _spread(result).histogram()[2] < result.number
 
 
 def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None = None,
@@ -37,10 +49,10 @@ def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None =
     subjects.check("histogram", item)
     scale = measures(item, units)
     timed = item.case.limits is not None
-    result = of_case_drawn(item.case, samples, seed, None, timed, not timed)
-    spread: Any = result.time if timed else result.largest
+    result = item.draws or of_case_drawn(item.case, samples, seed, None, timed, not timed)
+    spread: Any = _spread(result)
     edges, counts, beyond = spread.histogram()
-    if beyond == result.number:
+    if not is_known(result):
         what = "time" if timed else "largest rate"
         raise InputError(f"{item.path}: histogram: no draw has a {what} that is known and finite"
                          + ("" if timed else "; a limit in [limits] has a time to it"))

@@ -342,7 +342,7 @@ def space_of(item: Subject, names: Iterable[str], rate: tuple[str, float], resol
             resolved = None
     line, part, turns = (([], "", None) if moved is None else _path(item, clock or measures(item).time))
     marks = marks_of(item.state, moved, resolved)
-    limit = limit_of(item.case)
+    limit = limit_of(item.case, item.assumed)
     nearby = [*nearest(resolved, line), *beside_limit(limit, line)] if line else []
     box = box_of(line, marks + nearby, branches_of(item.twin)[0], most, reaching)
     surface, text, _ = branches_of(item.twin, box, shape)
@@ -426,7 +426,8 @@ def _path(item: Subject, clock: Clock) -> tuple[list[Any], str, Long | None]:
     period = item.motion.period
     low, high = item.seen
     t, omega = path(item, low, low + period if period else high)
-    near = len(near_part(t.tolist(), omega.tolist(), item.motion))
+    reached = item.assumed and item.assumed.time
+    near = len(near_part(t.tolist(), omega.tolist(), item.motion, reached))
     t, omega = t[:near], omega[:near]
     resolved = long(item, t, omega, clock)
     if resolved is not None and resolved[0].skins:

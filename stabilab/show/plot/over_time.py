@@ -23,6 +23,7 @@ from ...numbers.principal import without_trace
 from ...reasons import broad
 from ...theories.theory import side_by_side
 from .. import style
+from ..assumed import Assumed
 from ..space import limit_time
 from ..text import cost
 from ..text.stuck import answer_line, row_name
@@ -44,6 +45,7 @@ COMPONENTS = tuple({"color": colour, "linewidth": 1.3} for colour in style.AXES)
 SIZE_LOOK = {"color": style.BLACK, "linewidth": 2.2}
 EXTREME = {"linestyle": (0, (1, 2)), "linewidth": 1.1}
 LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
+SUPPOSED = LIMIT | {"linestyle": (0, (2, 3))}  # of a case that states none
 REACHED = {"marker": "o", "color": style.VERMILION, "markersize": 6.5, "linestyle": "none"}
 BETWEEN = {"facecolor": style.VERMILION, "alpha": 0.18, "linewidth": 0}  # the ends of its time are far apart
 PERIOD = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
@@ -88,6 +90,8 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
             limit = declared.rate if declared.rate is not None else declared.rates
             rows += limit_marks(target, limit, (float(reached.low), float(reached.high)), t, omega,
                                 (time_unit, per_time), scale.rate)
+        if item.assumed is not None:
+            rows += _assumed(target, item.assumed, t, omega, (time_unit, per_time), scale)
         if turned is not None:
             target.set_ylabel(with_unit("rate, axes of the file", rate_unit))
         return canvas.explained(target, rows if legend else [], ax is None,
@@ -207,19 +211,20 @@ def file_axes(item: Subject):
     return np.array([[float(v) for v in axis] for axis in case.frame.axes]).T
 
 
-def limit_marks(ax, limit, when, t, omega, time_unit, rate_unit):
+def limit_marks(ax, limit, when, t, omega, time_unit, rate_unit, look=None):
     """Dashed lines at a limit of |omega| (a number) or of the components (three), and a point where it is
     reached, between the ends of `when` or never (None), a band where these are far apart; the rows of the
-    legend."""
+    legend. look: of the lines, None for that of a stated limit."""
+    drawn = look or LIMIT
     (second, per_time), (name, per_rate) = time_unit, rate_unit
     alone = not isinstance(limit, (tuple, list))
     limits = [float(v) for v in ([limit] if alone else limit)]
     same = len(set(limits)) == 1
     for largest, look in zip(limits, COMPONENTS):
         for sign in (1,) if alone else (1, -1):
-            ax.axhline(sign * largest * per_rate, **LIMIT | ({} if same else {"color": look["color"]}))
+            ax.axhline(sign * largest * per_rate, **drawn | ({} if same else {"color": look["color"]}))
     printed = f"limit of {'|ω|' if alone else 'each'}, {limits[0] * per_rate:.4g} {name}"
-    rows = [(printed if same else "limits", LIMIT)]
+    rows = [(printed if same else "limits", drawn)]
     low, high = when or (math.nan, math.nan)
     if not (t[0] <= high < math.inf and low <= t[-1]):
         return rows
@@ -231,6 +236,19 @@ def limit_marks(ax, limit, when, t, omega, time_unit, rate_unit):
     at = np.linalg.norm(values) if alone else values[np.argmax(np.abs(values) / np.array(limits))]
     ax.plot([middle * per_time], [at * per_rate], zorder=5, **REACHED)
     return [*rows, (f"reached after {middle * per_time:.4g} {second}", REACHED)]
+
+
+def _assumed(ax: Axes, limit: Assumed, t: np.ndarray, omega: np.ndarray, time_unit: tuple[str, float],
+             scale: Measures) -> list[tuple[str, dict[str, Any]]]:
+    """The limit of a case that states none: as `limit_marks` where the motion comes so far; else said alone,
+    as room for its line would be taken from the curves."""
+    rate, per_rate = scale.rate
+    text = f"assumed limit, {limit.rate * per_rate:.4g} {rate}".rstrip()
+    if np.linalg.norm(omega, axis=1).max() < limit.rate:
+        return [(f"{text}: not reached", {"linestyle": "none"})]
+    when = None if limit.time is None else (limit.time, limit.time)
+    (_, look), *rest = limit_marks(ax, limit.rate, when, t, omega, time_unit, scale.rate, SUPPOSED)
+    return [(text, look), *rest]
 
 
 # --- The rates after each thruster that is stuck open: a panel a row of the answer
@@ -337,6 +355,7 @@ OPEN_TOP = 10.0  # times the top of the picture: where a band ends that is open 
 TALL = 8.0  # times the least: of times farther apart the logarithm is drawn
 ANGLES = np.radians(np.geomspace(0.1, 10.0, 4))  # and more where times bend
 EARLIEST = {"color": style.VERMILION, "linewidth": 2.0}
+FEWER_STEPS = {"linewidth": 1.0, "linestyle": ":"}
 BAND = {"facecolor": style.VERMILION, "alpha": 0.22, "linewidth": 0}
 SURE = {"facecolor": style.BLUE, "alpha": 0.18, "linewidth": 0}
 NOW = {"color": style.BLACK, "linestyle": "--", "linewidth": 1.2}
@@ -378,6 +397,13 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
             target.plot(degrees[reached], per * out.earliest[reached], **EARLIEST)
             rows.append((f"to the latest of {SIDES} directions" + f", with {out.within}"
                          * bool(out.within), BAND))
+            if not reached.all():  # where the line begins its runs have come to their last step
+                begins = np.argmax(reached)
+                target.plot(degrees[[begins, begins]], [per * out.earliest[begins], top],
+                            **EARLIEST | FEWER_STEPS)
+                target.plot(degrees[~reached], np.full((~reached).sum(), 0.93 * top), color=EARLIEST["color"],
+                            **NEVER)
+                rows.append(("not within the steps of a run", NEVER | {"color": EARLIEST["color"]}))
         if out.not_before.any():
             low = 0.3 * per * float(finite.min())
             target.fill_between(degrees, low, np.maximum(per * out.not_before, low), **SURE)
@@ -403,7 +429,8 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         target.set_xlabel(f"tilt of {out.of} (deg)")
         smallest = f"{number(out.limit.least_rate() * scale.rate[1], SHORT)} {scale.rate[0]}"
         reaches = r"$|\omega|$ =" if out.limit.kind == "rate" else "a component of"
-        target.set_ylabel(f"time to {reaches} {smallest} ({unit})")
+        supposed = "an assumed " * (supplied is None or supplied.limits is None)
+        target.set_ylabel(f"time to {supposed}{reaches} {smallest} ({unit})")
         return canvas.explained(target, rows if legend else [], ax is None,
                                 item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 

@@ -13,8 +13,10 @@ from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.stuck.ask import stuck
 from ...answers.stuck.margins import Row
+from ...answers.time_to import time_to
 from ...case.read import Case, load
 from ...errors import InputError, printable
+from ...maps.percentiles import Percentiles
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
 from ...physics.coefficients import effective
@@ -25,6 +27,7 @@ from ...theories.follow import models_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
 from .. import space
+from ..assumed import Assumed, assumed
 from ..axes import PLAIN, Axes, axes_of
 from ..picture_kinds import KINDS
 from ..text import headline
@@ -39,7 +42,8 @@ class Subject:
     without a motion; blocks: the rest of the state by name; span: (from, to) or None; heading: for titles,
     may be empty; case: where all this stands, or None; neighbours: how many motions a section shows beside
     it, None for the usual number; known: its motion, where that is worked out already; asked: the span that
-    its pictures show, None for what is worth seeing."""
+    its pictures show, None for what is worth seeing; draws: percentiles over its uncertain numbers, where
+    they are found already."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -50,6 +54,7 @@ class Subject:
     neighbours: int | None = None
     known: Motion | None = field(default=None, repr=False)
     asked: tuple[float, ...] | None = None
+    draws: Percentiles | None = field(default=None, repr=False)
 
     @property
     def physical(self) -> bool:
@@ -111,7 +116,14 @@ class Subject:
     @cached_property
     def seen(self) -> tuple[float, ...]:
         """(from, to): the span that its pictures show, in the scene's time."""
-        return self.asked or space.seen(self.span, self.motion, space.natural(self.scene, self.state))
+        return self.asked or space.seen(self.span, self.motion, space.natural(self.scene, self.state),
+                                        None if self.assumed is None else self.assumed.time)
+
+    @cached_property
+    def assumed(self) -> Assumed | None:
+        """The limit to which pictures are drawn where the case states none."""
+        return assumed(self.case, self.scene, self.state, None if self.state is None else self.motion,
+                       time_to)
 
 
 def subject(source: Any, state: Any = None, span: Any = None) -> Subject:

@@ -1,7 +1,7 @@
 """A motion on the surface that it stays on: cylinder of the reduced motion, sphere of momentum."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -33,7 +33,7 @@ from .in_space import (
     sight,
 )
 from .path import FINE, path, turning
-from .phase_plane import SMALL, curves_of, equilibria_of, highest, rows_of
+from .phase_plane import SMALL, curves_of, equilibria_of, highest, rows_of, ways
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 # --- The cylinder on which a motion under a torque on a principal axis stays: its phase plane, wrapped
 # round the curve of the other two rates
 GRID = (97, 161)  # of the surface: rates, places
+FARTHER = {"linewidth": 0.8}
+LEVELS, ROUNDS = 20, 8  # other energies; how often curves are followed round, at most
 AROUND = 2.2  # a small motion is shown in so many times its own size
 ASIDE = 0.6  # of the way over this motion and all equilibria: how far a hyperbola or parabola is shown beyond
 
@@ -64,8 +66,8 @@ def cylinder(item: Subject, units: str | None) -> SurfaceLines:
     text = f"the rates across {item.axes.short(axis + 1)} stay on a {plane.land.base}"
     result = SurfaceLines(grid_triangles(surface), box, view,
                          tuple(with_unit(name, scale.rate[0]) for name in scale.names), text)
-    for y, W, look in curves_of(plane, low, high, top):
-        shown = (np.abs(W) <= top) & (y >= low - 1e-9) & (y <= high + 1e-9) | np.isfinite(plane.land.turn)
+    for y, W, look in _curves(plane, low, high, top):
+        shown = (np.abs(W) <= top) & ((y >= low - 1e-9) & (y <= high + 1e-9) | np.isfinite(plane.land.turn))
         result.add(np.where(shown[:, None], at(y, W), np.nan), look, _outward(plane, y, axis))
     rests = equilibria_of(plane, low, high)
     for kind, places in rests:
@@ -75,6 +77,37 @@ def cylinder(item: Subject, units: str | None) -> SurfaceLines:
     result.marks.append((at([0.0], [plane.W0]), style.MARKER["start"]))
     result.rows = rows_of(dict(rests))
     return result
+
+
+def _curves(plane: PhasePlane, low: float, high: float, top: float):
+    """As of `curves_of`. Round a whole circle a torque lifts the energy by the same each time: the others are
+    so many energies that each line goes on beyond the place where the plane is cut, and separatrices and this
+    motion are followed round until they leave the picture."""
+    rise = float(plane.height(high)) - float(plane.height(low))
+    if high - low < plane.land.turn * (1 - 1e-9) or abs(rise) < SAME * top**2:
+        yield from curves_of(plane, low, high, top)
+        return
+    y, W = np.linspace(low, high, 700), np.linspace(-top, top, 500)
+    energy = W[:, None]**2 / 2 + plane.height(y)[None, :]
+    step = abs(rise) / max(1, round(LEVELS * abs(rise) / float(np.ptp(energy))))
+    values = np.arange(float(energy.min()) + step / 2, float(energy.max()), step)
+    for line in levels(y, W, energy, values):
+        yield *line.T, style.MEANING["level"]
+    far = plane.land.turn * min(ROUNDS, 1 + int(top**2 / 2 / abs(rise)))
+    for saddle in plane.repeated(plane.saddles, low, high):
+        ys, Ws = plane.separatrix(saddle, low - far, high + far, 20_001)
+        yield from _wound(ys, Ws, saddle, (1.0, -1.0), style.MEANING["separatrix"])
+    ys, Ws = motion_curve(plane, low - far, high + far, 20_001)
+    yield from _wound(ys, Ws, 0.0, ways(plane, Ws), style.MEANING["this motion"])
+
+
+def _wound(y: np.ndarray, W: np.ndarray, start: float, signs: Sequence[float], look: dict[str, Any]):
+    """A curve and its mirror, drawn thin where it has gone right round from where it starts."""
+    near = np.abs(y - start) <= 2 * np.pi
+    for sign in signs:
+        yield np.where(near, y, np.nan), sign * W, look
+        if not near.all():
+            yield np.where(near, np.nan, y), sign * W, look | FARTHER
 
 
 def _range(plane: PhasePlane, ys, Ws):
@@ -317,7 +350,8 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
     with canvas.on(ax, size, space=True) as target:
         in_space.facets(target, [(result.surface, style.GREY)], pale_by=0.22)
         for points, look, front in result.lines:
-            in_space.line(target, points, look if front else look | BEHIND, zorder=6 if front else 3)
+            behind = BEHIND if look is style.MEANING["level"] else HIDDEN
+            in_space.line(target, points, look if front else look | behind, zorder=6 if front else 3)
         for points, look in result.marks:
             in_space.line(target, points, look, zorder=8)
         in_space.furnish(target, result.box, result.labels, result.view)
@@ -326,3 +360,5 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
 
 
 BEHIND = {"alpha": 0.3, "linewidth": 0.7}
+# of separatrices, circles and the motion, which are to be seen whole
+HIDDEN = {"alpha": 0.75, "linewidth": 1.2, "linestyle": (0, (4, 2))}

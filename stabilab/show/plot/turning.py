@@ -17,6 +17,7 @@ from ...files import whole_file
 from ...physics.equations import rotation
 from ...physics.states import quaternion, start_of
 from .. import endings, style
+from ..assumed import Assumed
 from ..report import html
 from ..turns.moment import moment
 from ..units import SHORT, Unit, Units
@@ -47,9 +48,10 @@ class Turn:
     """t: (n,) s; rotations: (n, 3, 3) from body to space; omega: (n, 3) rad/s; edges: (3,) half edges of the
     box, the longest 1; whole: whether the span that was asked for is shown to its end; asked: its length, s;
     momentum: (n, 3) of body and wheels in space, N m s; torque: (3,) the constant one, N m, body; wheel: (3,)
-    momentum of the wheels, N m s, body; share: (n,) of the limit of the case, None without one. even: (first,
-    last) picture of the stretches that go on evenly, between which it goes fast; moment: (time, words) of
-    what matters in its time, None where nothing is known to."""
+    momentum of the wheels, N m s, body; share: (n,) of the limit of the case, or, assumed, of the one
+    that is taken where it states none; None without either. even: (first, last) picture of the stretches that
+    go on evenly, between which it goes fast; moment: (time, words) of what matters in its time, None where
+    nothing is known to."""
 
     t: np.ndarray
     rotations: np.ndarray
@@ -63,6 +65,7 @@ class Turn:
     share: np.ndarray | None
     even: tuple[tuple[int, int], ...] = ()
     moment: tuple[float, str] | None = None
+    assumed: bool = False
 
     @property
     def arrows(self) -> list[tuple[str, str, np.ndarray]]:
@@ -109,13 +112,14 @@ class Turn:
         return next((a for a, b in self.even if a <= frame <= b), frame)
 
 
-def turn(item: Subject, frames: int = FRAMES) -> Turn:
+def turn(item: Subject, frames: int = FRAMES, limit: Assumed | None = None) -> Turn:
     """The motion in so many pictures over its span: evenly where these are enough at `STEP`, else slow at its
-    start, at the moment that matters and at its end, and fast between; as far as a run goes."""
+    start, at the moment that matters and at its end, and fast between; as far as a run goes. limit: taken
+    where the case states none."""
     if not 2 <= frames <= 5000:
         raise InputError(f"frames: expected 2 to 5000, got {frames!r:.40}")
     low, high = item.seen
-    matters = moment(item.motion)
+    matters = moment(item.motion, limit and limit.time)
     matters = matters if matters is not None and low < matters[0] < high else None
     (t, rotations, omega), even = _paced(item, low, high, frames, matters and matters[0])
     full = abs(t[-1] - high) <= 1e-9 * abs(high - low)
@@ -126,14 +130,15 @@ def turn(item: Subject, frames: int = FRAMES) -> Turn:
     momentum = np.einsum("nij,nj->ni", rotations, omega * np.array(scene.body.inertia) + wheel)
     edges = np.maximum(box_sides(scene.body.inertia), THINNEST)
     return Turn(t, rotations, omega, edges, full, abs(high - low), momentum, vector("constant_torque"),
-                wheel, _share(item, omega), even, matters)
+                wheel, _share(item, omega, limit), even, matters, limit is not None)
 
 
-def _share(item: Subject, omega: np.ndarray):
-    """(n,) how much of the limit of a case rates (n, 3) have reached; None without one."""
+def _share(item: Subject, omega: np.ndarray, limit: Assumed | None):
+    """(n,) how much of the limit of a case, or of the one assumed, rates (n, 3) have reached; None where
+    nothing turns."""
     limits = None if item.case is None else item.case.limits
     if limits is None:
-        return None
+        return None if limit is None else np.linalg.norm(omega, axis=1) / limit.rate
     if limits.rate is not None:
         return np.linalg.norm(omega, axis=1) / float(limits.rate)
     parts = [(np.array([float(v) for v in axis]), float(largest))
@@ -240,7 +245,7 @@ def drawn(item: Subject, result: Turn, time: Unit, rate: Unit, system: Units,
             "faces": FACES, "colours": COLOURS, "names": [item.axes.label(n) for n in (1, 2, 3)],
             "tip": int(np.argmax(np.abs(result.omega[0]))), "real": float(abs(result.t[-1] - result.t[0])),
             "arrows": [[letter, colour, row(rows)] for letter, colour, rows in result.arrows],
-            "share": None if result.share is None else row(result.share),
+            "share": None if result.share is None else row(result.share), "assumed": result.assumed,
             "even": result.even, "notes": result.notes(system)}
 
 
@@ -284,7 +289,7 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
     from matplotlib.animation import FuncAnimation
     item = subject(case, state, span)
     subjects.check("attitude", item)
-    out, scale = turn(item, frames), measures(item, units)
+    out, scale = turn(item, frames, item.assumed), measures(item, units)
     with canvas.on(ax, size or SIZE, space=True) as target:
         draw = _stage(target, out, item, scale)
         if ax is None:  # laid out once, not for every picture
@@ -300,7 +305,7 @@ def film(item: Subject, path: Path, units: str | None = None, size: tuple[float,
     import matplotlib.animation
     kind = endings.ending(endings.file(path, ENDINGS))
     if kind == ".html":
-        return page(item, turn(item, SMOOTH), measures(item, units), path)
+        return page(item, turn(item, SMOOTH, item.assumed), measures(item, units), path)
     if kind == ".mp4" and not matplotlib.animation.writers.is_available("ffmpeg"):
         raise RenderingUnavailable(
             "no .mp4 can be written: ffmpeg is not installed: apt install ffmpeg; .gif and .html need "
@@ -354,6 +359,8 @@ def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
     rates = np.linalg.norm(result.omega, axis=1) * scale.rate[1]
     notes = result.notes(scale.system)
 
+    limit = "an assumed limit" if result.assumed else "the limit"
+
     def draw(frame: int):
         box.set_verts(_faces(result, frame))
         eye = _eye(ax)
@@ -376,7 +383,7 @@ def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
         fraction = None if result.share is None else result.share[frame]
         note = "; ".join(text for first, last, text in notes if first <= frame <= last)
         now.set_text(f"{result.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}"
-                     + ("" if fraction is None else f", {fraction:.0%} of the limit".replace("%", " %"))
+                     + ("" if fraction is None else f", {fraction:.0%} of {limit}".replace("%", " %"))
                      + f"\n{note}")
         now.set_color(style.BLACK if fraction is None or fraction < 1 else style.VERMILION)
         return [box, *axes, *names, *ways, now]

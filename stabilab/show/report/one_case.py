@@ -19,6 +19,7 @@ from ...answers.motion import Needs, motion
 from ...answers.uncertain.fate import uncertain
 from ...answers.when import with_tilt
 from ...errors import Kind, StabilabError, without
+from ...maps.percentiles import of_case_drawn
 from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
@@ -26,12 +27,14 @@ from .. import certification, frame, limiting, style
 from ..picture_kinds import KINDS
 from ..plot import subject as subjects
 from ..plot import to_file
+from ..plot.histogram import SEED, is_known
 from ..plot.in_space import space_of
 from ..plot.over_time import file_axes
 from ..plot.path import along
 from ..plot.subject import subject
 from ..space import data
 from ..terminal import printed, some
+from ..text import percentiles
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
 from ..text.motion import constants, margins, shown, state
@@ -40,6 +43,8 @@ from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, 
 from . import formulas, html
 from .html import picture
 from .tables import equilibrium_table, sensitivity, tiles
+
+DRAWS = 200  # of the uncertain numbers of a page: a second or two
 
 
 # --- Pictures
@@ -69,6 +74,7 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
     # a sketch of the body shows more than its moments: effects, or axes that the file has not
     acted_on = (bodily and bodily.effects) or case.thrusters or case.frame and not case.frame.as_given
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not acted_on,
+              "histogram": item.draws is None or not is_known(item.draws),
               "sphere": "phase" in offered and not subjects.free(item), "state": subjects.rates_alone(item)}
     exact_alone = models_of(item.scene) == ("exact",)
     for kind, page in SHOWN.items():
@@ -100,6 +106,7 @@ def _later(item) -> str:
 
 
 # --- A case
+CHANGES = "What would change the fate"
 EXPLAINED = {"margin, rate": ": the smallest change of the rates that reaches the separatrix",
              "margin, energy": ", the barrier ahead less the energy"}
 
@@ -117,6 +124,9 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     if moved is not None:
         moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
         item = replace(item, known=moved)
+        if deep and case.uncertain:
+            item = replace(item, draws=_tried(absent, "Percentiles", lambda: of_case_drawn(
+                case, DRAWS, SEED, 1, case.limits is not None, True)))
     if case.state is None:
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
     request = ("equilibria", "fate") if case.state else ("equilibria",)
@@ -143,18 +153,25 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "equilibria": result and equilibrium_table(result, units),
             "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
-        page |= {"tiles": tiles(moved, units), "facts": facts(case, moved, units),
+        page |= {"tiles": tiles(moved, units), "facts": facts(item, moved, units),
                  "extremes": extremes(case, moved, units), "over": _over(units.said(moved.over))}
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(item, folder, stem, deep,
                                                     "deg" if units.scaled else units.name, result)) or [])
         missing: dict[str, list[str]] = {}  # titles by their reason
         for kind, about in SHOWN.items():
+            if kind == "histogram" and not case.uncertain:  # a case without such numbers lacks nothing
+                continue
             missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
-        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
+        changing = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
+        if changing is None or changing["rows"] or changing["words"]:
+            page["sensitivity"] = changing
+        else:  # a reason alone makes no section
+            absent.append((CHANGES, changing["reason"]))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(item, result, units))
     page["uncertain"] = uncertain_text(box, units)
+    page["percentiles"] = "" if item.draws is None else percentiles.text(item.draws, units)
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))
     return page | {"absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
@@ -178,12 +195,14 @@ def _tried(absent, what, built):
         return None
 
 
-def facts(case, motion, units) -> list[tuple[str, str]]:
+def facts(item, motion, units) -> list[tuple[str, str]]:
     """(what, its value) of everything known of the motion, in the order in which one asks."""
+    case = item.case
     validity, axes = motion.validity, frame.rows_of_axes(case)
     result = [("law", units.said(validity.reason))] if validity is not None and validity.held else []
     at = state(motion.at, units, case.scene.blocks)
     result += [("start", f"{at} at {'τ' if units.scaled else 't'} = 0")]
+    result += [] if item.assumed is None else [("limit", item.assumed.words(units))]
     result += [("because", units.said(motion.reason).removeprefix("undecided: "))]
     result += [] if motion.ending is None else [("its end", units.said(motion.ending.reason))]
     explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_reason else {})

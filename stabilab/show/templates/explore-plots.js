@@ -94,8 +94,8 @@ function drawTime(canvas, data) {
   (extremes || []).forEach((pair, n) => pair.forEach(v => v !== null && line(art, [[times[0], v], [times[times.length - 1], v]], INK.components[n], 1, [1, 3])));
   line(art, Array.from(times, (t, i) => [t, size[i]]), INK.size, 2.4);
   limits.forEach(v => line(art, [[times[0], v], [times[times.length - 1], v]], INK.limit, 1.5, [6, 4]));
-  if (limits.length) { art.pen.fillStyle = INK.limit; art.pen.textAlign = "right"; art.pen.textBaseline = "bottom"; art.pen.fillText("limit", art.x(times[times.length - 1]) - 4, art.y(Math.max(...limits)) - 2); }
-  for (const end of reached ?? []) if (end <= times[times.length - 1]) line(art, [[end, low - pad], [end, high + pad]], INK.limit, 1.5);
+  if (limits.length) { art.pen.fillStyle = INK.limit; art.pen.textAlign = "right"; art.pen.textBaseline = "bottom"; art.pen.fillText(data.assumed ? "assumed limit" : "limit", art.x(times[times.length - 1]) - 4, art.y(Math.max(...limits)) - 2); }
+  for (const end of [reached ?? []].flat()) if (end <= times[times.length - 1]) line(art, [[end, low - pad], [end, high + pad]], INK.limit, 1.5);
   rates.forEach((row, n) => line(art, Array.from(times, (t, i) => [t, row[i]]), INK.components[n], 1.5));
   art.pen.restore();
   return art;

@@ -1,7 +1,7 @@
 // The page: sliders ask, answers are drawn. A question of a moving hand waits for the one before; one of a resting hand gives way to any newer.
 const setup = JSON.parse($("setup").textContent), ask = backend(), view = spaceView($("space"), {glass: 0.62, near: 0.95, shape: [0.68, 0.6]}), body = setup.scaled ? null : turningView();
 const touched = {}, fields = {}, torque = setup.groups.find(group => group.axis);
-let axis = torque.axis, axisTouched = false, linked = "", shown = null, serial = 0, latest = 0, busy = false, waiting = null, resting = null, abort = null, cross = null, planeArt = null, timeArt = null;
+let axis = torque ? torque.axis : null, axisTouched = false, linked = "", shown = null, serial = 0, latest = 0, busy = false, waiting = null, resting = null, abort = null, cross = null, planeArt = null, timeArt = null;
 const REST = 160;  // ms without a change after which a hand rests
 
 function element(tag, properties, ...children) { const made = Object.assign(document.createElement(tag), properties); made.append(...children); return made; }
@@ -65,7 +65,8 @@ function pick(part, tab) {  // on a telephone one picture stands above the slide
 
 function asInCase() {
   for (const name of Object.keys(touched)) delete touched[name];
-  axis = torque.axis; axisTouched = false; $("axis").value = axis; linked = "";
+  linked = ""; axisTouched = false;
+  if (torque) { axis = torque.axis; $("axis").value = axis; }
   for (const [name, {range, low, high, own}] of Object.entries(fields)) { range.min = low; range.max = high; put(name, own); }
 }
 
@@ -79,17 +80,18 @@ function restore() {
   asInCase();
   const wrong = [];
   for (const [name, text] of new URLSearchParams(location.hash.slice(1))) {
-    if (name === "axis" && ["1", "2", "3"].includes(text)) { axis = Number(text); axisTouched = true; $("axis").value = axis; }
+    if (torque && name === "axis" && ["1", "2", "3"].includes(text)) { axis = Number(text); axisTouched = true; $("axis").value = axis; }
     else if (Object.hasOwn(fields, name) && text.trim() && Number.isFinite(Number(text))) { touched[name] = text.trim(); put(name, text.trim()); }
     else wrong.push(text ? `${name.slice(0, 20)}=${text.slice(0, 20)}` : name.slice(0, 20));
   }
-  if (wrong.length) linked = `Left out of the link: ${wrong.slice(0, 5).join(", ")}${wrong.length > 5 ? " and more" : ""}; expected a number for any of ${Object.keys(fields).join(", ")}, and 1, 2 or 3 for axis.`;
+  if (wrong.length) linked = `Left out of the link: ${wrong.slice(0, 5).join(", ")}${wrong.length > 5 ? " and more" : ""}; expected a number for any of ${Object.keys(fields).join(", ")}${torque ? ", and 1, 2 or 3 for axis" : ""}.`;
 }
 
 function question(moving, click) {
   const row = stem => { const names = Object.keys(fields).filter(name => name.startsWith(stem)); return names.length ? names.map(name => touched[name] ?? null) : null; }, value = name => touched[name] ?? fields[name].own;
   const turned = axisTouched || ["size", "tilt", "azimuth"].some(name => name in touched);
-  return {torque: turned ? {axis, size: value("size"), tilt: value("tilt"), azimuth: value("azimuth")} : null, inertia: row("inertia"), wheel: row("wheel"),
+  const along = row("torque"), acting = !torque ? along && along.some(one => one !== null) ? {file: along} : null : turned ? {axis, size: value("size"), tilt: value("tilt"), azimuth: value("azimuth")} : null;
+  return {torque: acting, inertia: row("inertia"), wheel: row("wheel"),
           start: row("start"), moving, click: click || null, box: shown && shown.space ? shown.space.box : null};
 }
 
@@ -152,7 +154,7 @@ function show(answer) {
   trouble(note); $("headline").classList.remove("stale"); shown = answer;
   $("note").className = note.startsWith("Within") ? "note" : "warning";  // a law that holds is no warning
   for (const {axis, called} of Object.values(fields)) if (axis) called(answer.axes[axis - 1]);
-  [...$("axis").options].forEach((option, n) => { option.textContent = answer.axes[n]; });
+  if (torque) [...$("axis").options].forEach((option, n) => { option.textContent = answer.axes[n]; });
   $("headline").replaceChildren(answer.first, ...answer.small ? [" ", element("span", {className: "below", textContent: answer.small})] : []);
   $("headline").className = `verdict-line ${answer.look}`;
   view.show(answer.space);
@@ -164,7 +166,7 @@ function show(answer) {
   const saddle = answer.plane && answer.plane.rests.some(one => one.saddle), centre = answer.plane && answer.plane.rests.some(one => !one.saddle);
   fill("plane-words", answer.plane ? `Violet: this motion;${saddle ? " black: separatrix;" : ""} grey: other energies${centre ? "; filled: centre" : ""}${saddle ? "; open: saddle" : ""}. Click to start a motion there.`
     : "This scene does not reduce to one degree of freedom, so it has no phase plane.", words => [signed(words)]);
-  const limited = answer.time.limits.length ? "Dashed: limit" + (answer.time.reached === null ? "." : answer.time.reached.length > 1 ? ", reached between the upright lines." : ", reached at the upright line.") : "";
+  const limited = answer.time.limits.length ? `Dashed: ${answer.time.assumed ? "assumed limit" : "limit"}` + (answer.time.reached === null ? "." : Array.isArray(answer.time.reached) ? ", reached between the upright lines." : ", reached at the upright line.") : "";
   const told = [limited, answer.time.extremes ? "Dotted: least and greatest for ever." : "", periods(answer.time).length ? "Grey: whole periods." : ""].join(" ").trim();
   fill("time-words", [answer.time.names, told], ([names, words]) => [...names.map((name, n) => {
     const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n] || INK.size; mark.style.fontWeight = 600; return mark; }), words]);

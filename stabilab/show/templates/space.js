@@ -95,7 +95,7 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
     parts.forEach(part => gl.deleteVertexArray(part.vertices)); buffers.forEach(buffer => gl.deleteBuffer(buffer));
     parts = []; buffers = []; shapes = [];
     data.branches.forEach(one => branch(one));
-    data.veils.forEach(one => branch(one, one.name.startsWith("limit") ? 0.16 : 0.4));
+    data.veils.forEach(one => branch(one, one.name.includes("limit") ? 0.16 : 0.4));
     const wide = (kind, at) => kind !== "this motion" ? 0.011 : at.length > 6000 ? 0.006 : 0.013;  // thin of a motion that turns often
     data.curves.forEach(c => { const at = places(c.at); tube(at, wide(c.kind, at), c.colour); });
     data.points.forEach(p => { ball(p.at, 0.03, p.colour); tube([...p.at, ...p.at.slice(0, 2), -0.999], 0.003, "#7A7A7A"); });

@@ -50,6 +50,7 @@ function turningView() {
       line([1, 0, -1].map(side => side ? [tip[0] + 0.1 * back[0] + side * 0.05 * back[1], tip[1] + 0.1 * back[1] - side * 0.05 * back[0], 0] : tip), colour, 2.5);
     }
     $("limit").hidden = !data.share;
+    $("limited").textContent = data.assumed ? "assumed limit" : "limit";
     if (data.share) { $("gauge").value = data.share[n]; $("share").textContent = `${Math.round(100 * data.share[n])} %`; }
     $("at").value = n; $("now").textContent = `${rounded(data.t[n])} ${data.unit}, |ω| = ${rounded(data.size[n])} ${data.rate}`;
     $("note-now").textContent = data.notes.filter(([a, b]) => a <= n && n <= b).map(([, , told]) => told).join("; ");

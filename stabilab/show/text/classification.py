@@ -18,6 +18,7 @@ from ...case.uncertain import NORMAL, SIGMAS, UNIFORM
 from ...equilibrium.description import GREATER, LESSER, RATE, Description, holds_rates
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
+from ...physics.symmetric_top import top_rates
 from ...reasons import Quantity, Reason
 from ...representation import values_of
 from .. import ending, frame
@@ -26,7 +27,18 @@ from ..terminal import LINE, lettered, plain, written
 from ..units import DIGITS, SI, Unit, Units, as_bound, number
 from . import questions
 from .headline import largest_key, verdict
-from .motion import attitude_rows, flips_dict, followed, row, state, table, tilt_lines, why
+from .motion import (
+    attitude_rows,
+    flips_dict,
+    followed,
+    row,
+    state,
+    table,
+    tilt_lines,
+    top_key,
+    top_lines,
+    why,
+)
 
 if TYPE_CHECKING:
     from ...answers.attitude_result import Attitude
@@ -47,6 +59,7 @@ def text(case: Case, equilibria: Equilibria, motion: Motion | None, turning: Att
     lines = [f"{case.name}: {answer}", *([written(case.title)] if case.title else [])]
     if motion is not None:
         lines += [*table(case, motion, units), *(row(*fact) for fact in attitude_rows(turning, units)),
+                  *top_lines(top_rates(case.scene, case.start or ()), units),
                   *tilt_lines(case, motion, units, proofs),
                   *why(case, motion, units, proofs)]
     lines += ["" if motion is None else f"equilibria: {resting(equilibria, units)}",
@@ -59,7 +72,8 @@ def resting(equilibria: Equilibria, units: Units) -> str:
     """How many states of equilibrium there are, and how many of them are stable, in one line."""
     if equilibria.kind == "undecided":
         return (f"UNDECIDED, {len(equilibria.points)} known ({_count(p.verdict for p in equilibria.points)})"
-                if equilibria.points else "UNDECIDED")
+                if equilibria.points else f"UNDECIDED, {len(equilibria.curves)} curves known "
+                f"({_listed(Counter(map(_along, equilibria.curves)))})" if equilibria.curves else "UNDECIDED")
     if equilibria.kind in ("none", "all"):
         return {"none": "none", "all": "every state is one"}[equilibria.kind]
     parts = ([f"{len(equilibria.points)} isolated ({_count(p.verdict for p in equilibria.points)})"]
@@ -226,8 +240,8 @@ def as_dict(case: Case, equilibria: Equilibria, motion: Motion | None) -> dict:
                            "jacobian": _jacobian_dict(case) if case.scene.plain else None,
                            "points": [_point_dict(case, p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve_dict(case, c) for c in equilibria.curves]},
-            "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at)
-            }
+            "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at),
+            **top_key(top_rates(case.scene, case.start or ()))}
 
 
 def _counts_dict(equilibria: Equilibria) -> dict:

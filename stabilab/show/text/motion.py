@@ -22,6 +22,7 @@ from .headline import largest_key, rate_margin, span_words
 if TYPE_CHECKING:
     from ...answers.attitude_result import Attitude
     from ...case.read import Case
+    from ...physics.symmetric_top import TopRates
 
 # --- The numbers of a motion
 WIDE = 24  # columns of a name
@@ -258,7 +259,7 @@ def row_of(case: Case, item: Attitude) -> dict:
     return {"at": item.at, "fate": item.fate.word,
             **values_of(item, "rotation_period precession_period mode momentum"),
             "momentum_direction": in_file(case, item.momentum_direction),
-            **values_of(item, "cone lean nutation_period turn_angle"),
+            **values_of(item, "cone lean nutation_period turn_angle"), **top_key(item.top),
             "turn_axis": in_file(case, item.turn_axis),
             **values_of(item, "error decimals because"),
             "reason": item.reason.as_dict() if item.reason else None
@@ -287,6 +288,7 @@ def attitude_text(case, result, units: Units) -> str:
         low, high = (units.angle(angle) for angle in result.lean)
         lines.append(row("lean", f"{low} to {high} from the upward vertical" if low != high else
                          f"{low} from the upward vertical, always"))
+    lines += top_lines(result.top, units)
     if result.turn_angle is not None:
         about = f" about {_vector(case, result.turn_axis)}" if result.turn_axis else ""
         lines.append(row("turn after one period", units.angle(result.turn_angle) + about))
@@ -295,6 +297,40 @@ def attitude_text(case, result, units: Units) -> str:
     if result.error is not None and result.decimals is None:
         lines.append(row("relative error", f"at most {outward(result.error, 1, 1):.0e}"))
     return "\n".join([*lines, f"why: {units.said(result.reason)}", *frame.note(case)])
+
+
+def top_key(top: TopRates | None) -> dict:
+    """What is known of the spin of a top and its lean, rad/s and rad, under `top`; nothing of other bodies.
+    """
+    return {} if top is None else {"top": {
+        "spin": top.spin, "lean": top.lean, "steady_precession": list(top.steady), "least_spins": top.spins,
+        "unstable_upright": top.upright, "unstable_hanging": top.hanging}}
+
+
+def top_lines(top: TopRates | None, units: Units) -> list[str]:
+    """Its rates of steady precession, and from which spin on it stays upright."""
+    if top is None:
+        return []
+    lean, spin = units.angle(top.lean), units.rate(top.spin)
+    rates = " or ".join(units.rate(rate, SHORT) for rate in top.steady)
+    lines = []
+    if rates:
+        lines.append(row("steady precession", f"{rates} at a lean of {lean} and a spin of {spin}"))
+    elif top.spins is not None:
+        lines.append(row("steady precession", f"at a lean of {lean} {_outside(top.spins, units)}"))
+    for name, unstable in (("upright", top.upright), ("hanging", top.hanging)):
+        if unstable is not None:
+            lines.append(row(name, f"stable {_outside(unstable, units)}"))
+        elif name == "upright":
+            lines.append(row(name, "stable at every spin"))
+    return lines
+
+
+def _outside(ends: tuple[float, float], units: Units) -> str:
+    low, high = ends
+    if low == -high:
+        return f"from a spin of {units.rate(high)} on, either direction"
+    return f"at spins below {units.rate(low)} and above {units.rate(high)}"
 
 
 def attitude_rows(result: Attitude | None, units: Units) -> list[tuple[str, str]]:

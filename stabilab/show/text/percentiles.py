@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ...errors import printable
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 COLUMNS = ("case", "quantity", "of", "low", "high", "least", "greatest")
 HEADS = {"reached": "reached by", "never": "never by", "unknown": "not known of"}
-NO_END = {"time": "never", "largest": "without end"}
+NO_END = {"time": "never", "largest": "without end", "closing": "whenever"}
 
 
 def text(result: Percentiles, units: Units) -> str:
@@ -31,7 +32,9 @@ def text(result: Percentiles, units: Units) -> str:
         aim = questions.asked(result.limit, units)
         lines.append(f"  {aim}: " + ", ".join(f"{HEADS[name]} {_share(of)}"
                                               for name, of in result.reached.items()))
-    for name, label, item in (("time", "time", result.time), ("largest", "largest |ω|", result.largest)):
+    closing = "" if result.below is None else f"latest closing for |ω| < {units.rate(result.below, SHORT)}"
+    for name, label, item in (("time", "time", result.time), ("largest", "largest |ω|", result.largest),
+                              ("closing", closing, result.closing)):
         if item is not None:
             lines.append(f"  {label}: {_quantiles(item, name, units)}")
     return "\n".join([*lines, *limiting.lines(result.caveats, units)])
@@ -52,7 +55,7 @@ def _quantiles(item: Distribution, name: str, units: Units) -> str:
              if v is not None and math.isfinite(v)]
     if not sizes:
         return NO_END[name]
-    unit = units.times(max(sizes, default=0.0)) if name == "time" else units.of("rad/s")
+    unit = units.of("rad/s") if name == "largest" else units.times(max(sizes, default=0.0))
     parts = [f"{'median' if q.percent == 50 else f'{q.percent} %'} {_of(q, name, unit)}"
              for q in item.quantiles]
     return f"{', '.join(parts)} {unit[0]}".rstrip()
@@ -68,17 +71,27 @@ def _of(q: Quantile, name: str, unit: Unit) -> str:
     return f"{value} [{shown(q.least)}, {shown(q.greatest)}]"
 
 
-def as_dict(case: Case, result: Percentiles) -> dict[str, Any]:
-    """{"percentiles": ...} to be joined to a command's object, in SI units. 1e999: never, or without end;
-    null: too few draws for a bound."""
+def as_dict(case: Case, results: Sequence[Percentiles]) -> dict[str, Any]:
+    """{"percentiles": ...} to be joined to a command's object, a list of those of each thruster alone; empty
+    where there are none."""
+    if not results:
+        return {}
+    found = [_as_dict(case, item) for item in results]
+    return {"percentiles": found if any(item.thruster for item in results) else found[0]}
+
+
+def _as_dict(case: Case, result: Percentiles) -> dict[str, Any]:
+    """In SI units. 1e999: never, or without end; null: too few draws for a bound."""
     shares = lambda of: {name: values_of(item, "count fraction low high") for name, item in of.items()}
     limit = result.limit
-    return {"percentiles": {
+    return {
+        **({"thruster": result.thruster} if result.thruster else {}),
         **values_of(result, "number draws seed confidence"),
         "limit": limit and {"kind": limit.kind, "quantities": limit.names, "limits": limit.limits},
         "reached": shares(result.reached), "outcomes": shares(result.outcomes),
         "time": _distribution(result.time), "largest": _distribution(result.largest),
-        **limiting.key(case, result.caveats)}}
+        "below": result.below, "closing": _distribution(result.closing),
+        **limiting.key(case, result.caveats)}
 
 
 def _distribution(item: Distribution | None) -> dict[str, Any] | None:
@@ -97,6 +110,7 @@ def lines(result: Percentiles) -> list[limiting.Line]:
             for kind, shares in (("outcome", result.outcomes), ("limit", result.reached))
             for name, of in shares.items()]
     rows += [(name, f"{q.percent} %", *endless([q.low, q.high, q.least, q.greatest]))
-             for name, item in (("time", result.time), ("largest", result.largest)) if item is not None
+             for name, item in (("time", result.time), ("largest", result.largest),
+                                ("closing", result.closing)) if item is not None
              for q in item.quantiles]
     return [limiting.Line((result.name, *row), caveats=result.caveats) for row in rows]

@@ -1,5 +1,7 @@
 """A mass on a spring with a dashpot in a body: against Newton's equations of the two bodies in space, with the
 force between them as an unknown, which share no equation with the package."""
+import math
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -8,12 +10,13 @@ import stabilab
 from stabilab import Body, DamperMass, Gyrostat, InputError, Scene, load, trajectory
 from stabilab.orbit.result import Fate
 from stabilab.physics.to_numpy import to_numpy
+from tests.shared import CASES
 
 D, M = np.array([2.0, 1.5, 1.2]), 10.0
 
 
-def newton(m, place, line, k, c, omega, x, v, times, wheel=(0, 0, 0)):
-    """(omega, (x, v), energy, |H|) by DOP853. The rest of the body has the mass M - m and about its own mass centre
+def newtons_rates(D, m, place, line, k, c, wheel=(0, 0, 0)):
+    """(rates of (omega, x, v), n, r, B, mu), by a linear system in the unknowns of each step. The rest of the body has the mass M - m and about its own mass centre
     the moments B; r is the place from there. Unknowns of each step, in the body's axes: the acceleration A of that
     centre, omega', x'' and the force f on the mass, of
     (M - m) A = -f,  B omega' + omega x (B omega + wheel) = rho x (-f),  m a = f,  f . n = -k x - c v,
@@ -35,6 +38,12 @@ def newton(m, place, line, k, c, omega, x, v, times, wheel=(0, 0, 0)):
         left[9, 7:], right[9] = n, -k * x - c * v
         solved = np.linalg.solve(left, right)
         return [*solved[3:6], v, solved[6]]
+    return rate, n, r, B, mu
+
+
+def newton(m, place, line, k, c, omega, x, v, times, wheel=(0, 0, 0)):
+    """(omega, (x, v), energy, |H|) by DOP853."""
+    rate, n, r, B, mu = newtons_rates(D, m, place, line, k, c, wheel)
     y = solve_ivp(rate, (0, times[-1]), [*omega, x, v], "DOP853", times, rtol=1e-12, atol=1e-13).y.T
     w, x, v = y[:, :3], y[:, 3], y[:, 4]
     rho = r + x[:, None] * n
@@ -96,3 +105,59 @@ def test_file_and_faults():
     with pytest.raises(InputError, match="displaces the mass"):
         stabilab.flat_spin(case)
     assert stabilab.equilibria(case).kind == "undecided"
+
+
+def _growth(D, arguments, wheel, omega):
+    """The largest real part of the eigenvalues but for the one of |H|, over the largest: central differences of
+    Newton's equations at a rotation with the mass at its place; and whether it is an equilibrium."""
+    rate = newtons_rates(np.array(D), *arguments, wheel)[0]
+    at, h = np.array([*omega, 0, 0]), 1e-6
+    rest = np.abs(rate(0, at)).max()
+    values = np.linalg.eigvals(np.stack([(np.array(rate(0, at + h * e)) - rate(0, at - h * e)) / (2 * h)
+                                         for e in np.eye(5)], axis=1))
+    values = sorted(values, key=abs)[1:]
+    return max(v.real for v in values), rest
+
+
+@pytest.mark.first(8, 40)
+@pytest.mark.parametrize("seed", range(120))
+def test_rotations_that_leave_the_spring_relaxed_are_stable_where_newtons_equations_are(seed):
+    """A place in a plane across the line, or along an axis: random bodies, with a wheel along an axis in half of them."""
+    rng = np.random.default_rng([23, seed])
+    D, r, n = rng.uniform(1.2, 2, 3), rng.normal(size=3) * 0.25, np.eye(3)[seed % 3]
+    r[seed % 3] = 0.0
+    if seed % 5 == 0:
+        r, n = 0.25 * np.eye(3)[seed % 3], rng.normal(size=3) * (np.eye(3)[seed % 3] == 0)  # along no axis
+    wheel = np.eye(3)[int(rng.integers(3))] * rng.normal() * (seed % 2)
+    arguments = (0.5, r.tolist(), n.tolist(), float(10 ** rng.uniform(-1, 0.5)), 0.3)
+    scene = Scene(Body(D.tolist(), M), DamperMass(*arguments, M), *([Gyrostat(wheel.tolist())] if any(wheel) else []))
+    found, judged = stabilab.equilibria(scene), 0
+    assert found.kind == "undecided" and "relaxed" in found.because
+    for curve in found.curves:
+        for segment in curve.segments:
+            low, high = max(segment.t[0], -6.0), min(segment.t[1], 6.0)
+            if low >= high:
+                continue
+            omega = curve.point(low + 0.4137 * (high - low))
+            growth, rest = _growth(D, arguments, wheel, omega)
+            assert rest < 1e-12
+            if segment.verdict == "unstable":
+                assert growth > 0
+            elif segment.verdict == "stable":
+                assert growth < 1e-7  # what fades slowly is at rounding
+            judged += segment.verdict != "undecided"
+    assert judged
+
+
+def test_the_spin_of_a_published_nutation_damper_is_stable_up_to_a_rate():
+    """By hand: about z, D3 greatest, k > W^2 (0 + mu^2 r^2/(D3 - D1)), J2_33 = 0, with r from the mass centre of the
+    rest; the public example runs at 1 rad/s."""
+    case = load(CASES / "dampers/mass.toml")
+    mass, whole, D = 52.744, 5327.144, case.scene.body.inertia
+    mu = mass * (1 - mass / whole)
+    limit = math.sqrt(52.744 * (D[2] - D[0])) / mu
+    curve = next(c for c in stabilab.equilibria(case).curves if "3" in str(c.description.name))
+    stable = [s.t for s in curve.segments if s.verdict == "stable"]
+    assert [*stable[0], *stable[-1]] == pytest.approx([-limit, 0, 0, limit], rel=1e-12) and limit > 1
+    # the moments of the example, of the body about its own mass centre, from those of the whole
+    assert np.array(D) - [0, mu, mu] == pytest.approx([1375.7, 1292.5, 1402.4], rel=1e-12)

@@ -20,10 +20,10 @@ def turning(v):
     return np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
 
 
-def in_space(D, J, c, axis, wheel, omega, s, times):
-    """(rates, relative rate of the wheel, kinetic energy of body and wheel) by DOP853: H stays in space, R' = R
-    [omega x], and the wheel's own spin p = J (s + a . omega) about its axis falls by the bearing's torque, p' =
-    -c s. In the body R^T H = (D - J a a^T) omega + p a + wheel gives omega."""
+def in_space(D, J, c, axis, wheel, omega, s, times, k=0.0, phi=0.0):
+    """(rates, relative rate of the wheel, energy of body, wheel and spring) by DOP853: H stays in space, R' = R
+    [omega x], and the wheel's own spin p = J (s + a . omega) about its axis changes by the torque of bearing and
+    spring, p' = -c s - k phi, phi' = s. In the body R^T H = (D - J a a^T) omega + p a + wheel gives omega."""
     a = np.array(axis, float) / np.linalg.norm(axis)
     rest = np.diag(D) - J * np.outer(a, a)
     p0 = J * (s + a @ omega)
@@ -36,11 +36,11 @@ def in_space(D, J, c, axis, wheel, omega, s, times):
 
     def rate(t, y):
         R, p, omega, s = rates(y)
-        return [*(R @ turning(omega)).ravel(), -c * s]
-    run = solve_ivp(rate, (0, times[-1]), [*np.eye(3).ravel(), p0], "DOP853", times, rtol=1e-12, atol=1e-13)
+        return [*(R @ turning(omega)).ravel(), -c * s - k * y[10], s]
+    run = solve_ivp(rate, (0, times[-1]), [*np.eye(3).ravel(), p0, phi], "DOP853", times, rtol=1e-12, atol=1e-13)
     seen = [rates(y) for y in run.y.T]
     omega, s = np.array([item[2] for item in seen]), np.array([item[3] for item in seen])
-    energy = ((omega @ rest) * omega).sum(axis=1) / 2 + J * (s + omega @ a) ** 2 / 2
+    energy = ((omega @ rest) * omega).sum(axis=1) / 2 + J * (s + omega @ a) ** 2 / 2 + k * run.y[10] ** 2 / 2
     return omega, s, energy
 
 
@@ -56,6 +56,61 @@ def test_runs_as_wheel_and_body_in_space_do(axis, wheel):
     laws = stabilab.physics.to_numpy.to_numpy(scene).invariants(run.states)
     assert laws["energy"] == pytest.approx(expected[2], rel=1e-10) and (np.diff(laws["energy"]) < 0).all()
     assert laws["momentum"] == pytest.approx(np.full(4, laws["momentum"][0]), rel=1e-11)
+
+
+@pytest.mark.parametrize(("axis", "wheel", "k"), [
+    ((1, 2, -2), (0.4, -0.1, 0.3), 0.05),
+    pytest.param((0, 0, 1), (0, 0, 0), 2.0, marks=pytest.mark.slow),
+    pytest.param((3, 0, 1), (0, 0, 0), 0.1, marks=pytest.mark.slow)])
+def test_on_a_spring_it_runs_as_wheel_and_body_in_space_do(axis, wheel, k):
+    scene = Scene(Body(D.tolist()), DamperWheel(J, C, axis, k), *([Gyrostat(wheel)] if any(wheel) else []))
+    omega, times = np.array([0.3, -0.8, 1.1]), np.array([0.0, 3, 11, 40])
+    expected = in_space(D, J, C, axis, np.array(wheel), omega, 0.25, times, k, 0.4)
+    run = trajectory(scene, {"omega": omega, "sprung_wheel": [0.4, 0.25]}, times)
+    assert run.states[:, :3] == pytest.approx(expected[0], abs=1e-9)
+    assert run.states[:, 4] == pytest.approx(expected[1], abs=1e-9)
+    laws = stabilab.physics.to_numpy.to_numpy(scene).invariants(run.states)
+    assert laws["energy"] == pytest.approx(expected[2], rel=1e-10) and (np.diff(laws["energy"]) < 0).all()
+    assert laws["momentum"] == pytest.approx(np.full(4, laws["momentum"][0]), rel=1e-11)
+
+
+def test_a_spring_tuned_to_the_nutation_damps_it_faster_as_the_run_in_space_does():
+    """At spin 1 about axis 1 of (2, 1.5, 1.2) the nutation has ((2 - 1.5)(2 - 1.2)/(1.5 1.2))^(1/2) = 0.471 rad/s; a
+    wheel across it of so many rad/s on its spring, (k/J)^(1/2). The fit is that of the run in space."""
+    times, tuned = np.linspace(0, 70, 351), 0.15 * 0.4714**2
+    decays = {}
+    for k in (0.0, tuned):
+        scene = Scene(Body(D.tolist()), DamperWheel(J, C, (0, 0, 1), k))
+        decays[k] = flat_spin(load(scene, (1, 0.01, 0.01))).decay
+        omega, s, energy = in_space(D, J, C, (0, 0, 1), np.zeros(3), np.array([1, 1e-2, 1e-2]), 0.0, times, k)
+        H = D * [1, 1e-2, 1e-2]
+        above, late = energy - H @ H / (2 * D[0]), times > 20
+        fitted = -2 / np.polyfit(times[late], np.log(above[late]), 1)[0]
+        assert decays[k] == pytest.approx(fitted, rel=2e-2)
+    assert decays[tuned] < decays[0.0]
+
+
+def test_with_a_spring_the_permanent_rotations_and_their_stability_are_those_without():
+    found = stabilab.equilibria(Scene(Body((3, 2, 1)), DamperWheel("0.1", "0.3", (1, 1, 1), "0.2")))
+    words = {tuple(map(bool, point.at[:3])): point.verdict for curve in found.curves for point in curve.samples}
+    assert words[True, False, False] == "stable"  # the greatest moment: least energy at its |H|
+    assert words[False, True, False] == words[False, False, True] == "unstable"
+    plain = Scene(Body((3, 2, 1)), DamperWheel("0.1", "0.3", (1, 1, 1), 0))
+    assert plain.blocks == ("omega", "damper_wheel") and DamperWheel(1, 1, (0, 0, 1)) == DamperWheel(1, 1, (0, 0, 1), 0)
+
+
+def test_a_file_states_spring_angle_and_rate_and_faults_say_what_to_do():
+    text = ("[body]\ninertia = [3, 2, 1.5]\n[effects.damper_wheel]\ninertia = 0.1\ncoefficient = 0.2\naxis = [0, 0, 1]\n"
+            "stiffness = \"50 N mm\"\n[motion]\nangular_velocity = [0.1, 0.2, 1]\nsprung_wheel = [0.3, 0.5]\nspan = [0, 10]\n")
+    case = load(text)
+    assert case.start == (0.1, 0.2, 1.0, 0.3, 0.5) and case.scene.effect("damper_wheel").spring == Fraction(1, 20)
+    again = load(stabilab.case.write.data_of_scene(case.scene, {"omega": case.state, **case.blocks}))
+    assert again.start == case.start and again.scene == case.scene
+    for old, new, words in (("sprung_wheel = [0.3, 0.5]", "damper_wheel = [0.5]", "the damper wheel is on a spring"),
+                            ('stiffness = "50 N mm"\n', "", "give .effects.damper_wheel. a stiffness"),
+                            ('"50 N mm"', '"-50 N mm"', "not negative"), ('"50 N mm"', '"50 N"', "torque")):
+        with pytest.raises(InputError, match=words):
+            load(text.replace(old, new))
 
 
 @pytest.mark.first(2, 12)

@@ -157,3 +157,24 @@ def test_a_damper_that_differs_by_the_axis_is_refused_in_oblique_axes():
     case = read_text("oblique.toml", unlike)
     with pytest.raises(InputError, match="but not rate damper: state the case along its principal axes"):
         pictures.check(case)
+
+
+@pytest.mark.parametrize("name", ["off-axis-one", "cubesat-3u"])
+def test_a_torque_off_the_axes_has_sliders_along_the_axes_of_the_file(name):
+    """By the frame: a torque along x of the file alone has no other component there, and its size; what no hand
+    touched stays the case's own."""
+    case = load(NAMED[name])
+    group = controls.groups(case, units_of(case))[0]
+    assert [(one["name"], one["words"]) for one in group["controls"]] == [
+        ("torque1", "x"), ("torque2", "y"), ("torque3", "z")] and group["axis"] is None
+    own = case.scene.vector("constant_torque")
+    along = own if case.frame is None else case.frame.back(own)
+    assert [one["value"] for one in group["controls"]] == pytest.approx([float(v) for v in along], rel=1e-5)
+    _, new = moved(name, torque={"file": ["0.5", "0", "0"]})
+    turned = [float(v) for v in new.scene.vector("constant_torque")]
+    back = turned if case.frame is None else [float(v) for v in case.frame.back(turned)]
+    assert back == pytest.approx([0.5, 0, 0], abs=1e-11)
+    _, new = moved(name, torque={"file": [None, None, "0"]})
+    turned = [float(v) for v in new.scene.vector("constant_torque")]
+    back = turned if case.frame is None else [float(v) for v in case.frame.back(turned)]
+    assert back == pytest.approx([float(along[0]), float(along[1]), 0], rel=1e-9, abs=1e-11)

@@ -10,6 +10,7 @@ from stabilab.errors import InputError
 from stabilab.maps.parts import case_of
 from stabilab.maps.plan import planned
 from stabilab.maps.run import changes
+from stabilab.orbit.result import Fate
 from stabilab.show import style
 from stabilab.show.maps import picture
 from stabilab.show.maps import picture as curves
@@ -178,3 +179,13 @@ def test_a_map_says_what_its_white_cells_mean_and_is_refused_where_all_are(tmp_p
     # axes 1 and 2 have one, of three the greatest is without end
     with pytest.raises(InputError, match="no point has a finite value of greatest"):
         picture.write(tmp_path / "up.nc", tmp_path / "x.png", "greatest")
+
+
+def test_the_line_of_margin_zero_goes_on_where_no_barrier_is_ahead():
+    """By hand: margin = y - x^2 is zero on a parabola; beyond it there is none. Half a step would be 0.05."""
+    x = y = np.linspace(0, 1, 11)
+    margin = np.where((inside := y[None, :] - x[:, None]**2) > 0, inside, np.nan)
+    fates = np.where(inside > 0, Fate.BOUNDED, Fate.SPIN_UP)
+    lines = picture.segments_of(fates, x, y, lambda at, along: picture.zero_between(margin, at, along))
+    ends = lines.reshape(-1, 2)
+    assert len(lines) > 8 and np.abs(ends[:, 1] - ends[:, 0]**2).max() < 0.02
