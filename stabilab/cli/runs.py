@@ -63,7 +63,8 @@ def plot(
         dpi: Annotated[float | None, option("N", "Dots per inch of a .png; default: 110.")] = None,
         until: Annotated[str | None, option("TIME", 'Draw up to this time: "10 min".')] = None,
         neighbours: Annotated[int | None, option(
-            "N", "For --kind section: number of neighbouring motions; default: 6.")] = None,
+            "N", "For --kind section: number of neighbouring motions; default: 6, of one that repeats 10 "
+                 "closed orbits.")] = None,
         units: UnitsOption = None, strict: Strict = False):
     """Draw a case: rates over time, phase plane, separatrix, more.
 

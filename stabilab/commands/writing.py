@@ -63,10 +63,10 @@ def written(out: Path, writers: Sequence[tuple[Case, Callable[..., Any]]]) -> li
     return [writer(labelled(out, case)) for case, writer in writers] if out else []
 
 
-def say_written(files: Sequence[Path]):
-    """Name files that were written, a line each."""
+def say_written(files: Sequence[Path | str]):
+    """Name files that were written, a line each; of what has no file, say why."""
     for file in files:
-        say(f"written: {file}")
+        say(file if isinstance(file, str) else f"written: {file}")
 
 
 def leave_undecided(strict: bool, open_: bool):

@@ -51,7 +51,8 @@ KINDS = {
     "space": Picture("the motion in the space of rates, beside the separatrix", "in_space.space", "range"),
     "section": Picture(
         "the Poincaré section: passages of a plane, with neighbours and the periodic motion in the middle of "
-        "an island", "phase_plane.section", "section"),
+        "an island; of a motion that repeats, the closed orbits of its island out to the separatrix",
+        "phase_plane.section", "section"),
     "equilibria": Picture(
         "all equilibria, stable and unstable", "equilibria.equilibria", "equilibria",
         Page("All equilibria", "Stable and unstable ones in the space of the rates.", "equilibria",

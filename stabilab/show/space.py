@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 import sys
 from array import array
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, pairwise, product
+from itertools import accumulate, combinations, product
 from typing import Any
 
 from ..equilibrium.result import Equilibria, EquilibriumCurve
@@ -23,6 +23,7 @@ from ..packages import present
 from ..physics.scene import AnyScene
 from . import style
 from .assumed import Assumed
+from .turns.band import BAND, Grid, Long
 from .units import with_unit
 
 # --- The span of time
@@ -110,8 +111,9 @@ PLACES = (40, 90)
 VIEWS = tuple((up, round_) for up in (22, 33) for round_ in (-55, -35, 35, 55))  # deg: elevation, azimuth
 BETTER = 1.25  # times as broad as from the first side: from there the path is seen
 RIM = 0.88  # of half of the box: up to here numbers stand at its edges, the corners are crowded
-# shares of the box across an axis, where the limit is cut; half the steps of an arc, a radian
-LEVELS, ARC = (-0.6, 0.0, 0.6), 6
+ALIKE = 5e3  # steps from zero: ticks so far from it differ in their last digits
+CROWDED = 0.12  # halves of the box: times nearer than that would lie on each other
+ARC = 24  # steps of a sixth of the limit's sphere each way
 HALF, BEYOND_SIZE = 4095, 8.0  # half of the box in numbers of a page; what is farther off is moved in
 
 Point = Sequence[float]
@@ -163,6 +165,20 @@ class Box:
         return [n * step for n in range(first, last + 1)]
 
 
+def shifted(ticks: list[float], name: str) -> tuple[list[float], str]:
+    """(what stands at ticks, the name of their axis): differences from a round number, which the name says,
+    where the ticks themselves would differ in their last digits alone."""
+    apart = min((b - a for a, b in zip(ticks, ticks[1:])), default=0.0)
+    if not apart or max(map(abs, ticks)) < ALIKE * apart:
+        return ticks, name
+    ten = 10.0 ** math.ceil(math.log10(ticks[-1] - ticks[0]))
+    base = round((ticks[0] + ticks[-1]) / 2 / ten) * ten
+    before, bracket, unit = name.partition(" (")
+    sign = "\u2212" if base > 0 else "+"
+    (text,) = numbers([abs(base)])
+    return [round((v - base) / apart) * apart for v in ticks], f"{before} {sign} {text}{bracket}{unit}"
+
+
 def numbers(ticks: list[float]) -> list[str]:
     """What stands at ticks: six digits, more where these would round them."""
     apart = min((b - a for a, b in zip(ticks, ticks[1:])), default=0.0)
@@ -176,7 +192,9 @@ class Space:
     """names: labels of the axes, in a unit of which `rate` make one of the scene's; branches: (colour,
     branch) of the separatrix; curves and marks: (words of the legend, places or place); path: of the motion;
     arrows: (place, step) along it; view: elevation and azimuth of the eye, deg; caption: what the separatrix
-    parts, or why none is drawn; part: what is said where the path is a part of the motion."""
+    parts, or why none is drawn; part: what is said where the path is a part of the motion. lines: the path,
+    or of a motion of many turns those that are drawn, with their times beside them; veils: (words of the
+    legend, colour, surface) of what is seen through: the band of many turns, the sphere of the limit."""
 
     names: tuple[str, ...]
     rate: float
@@ -189,12 +207,16 @@ class Space:
     view: tuple[float, float]
     caption: str
     part: str = ""
+    lines: tuple[list[Point], ...] = ()
+    times: tuple[tuple[Point, str], ...] = ()
+    veils: tuple[tuple[str, str, Grid], ...] = ()
 
     @property
     def legend(self) -> dict[str, str]:
         """Words and colour of all that is drawn, each once."""
         kinds = [MOTION] * bool(self.path) + [text for text, _ in (*self.marks, *self.curves)]
         return ({kind: str(look(kind)["color"]) for kind in kinds}
+                | {text: colour for text, colour, _ in self.veils}
                 | {branch.name: colour for colour, branch in self.branches})
 
 
@@ -204,27 +226,34 @@ ASSUMED = f"assumed {LIMIT}"  # of a case that states none
 
 def look(text: str) -> dict[str, Any]:
     """How something is drawn, by its words in a legend; behind a comma stands a number."""
-    return style.SPACE[text.partition(",")[0]]
+    return style.SPACE[BAND if text.startswith(BAND) else text.partition(",")[0]]
 
 
 def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Iterable[PlainBranch],
           path: list[Point], marks: Iterable[tuple[str, Point]], curves: Iterable[tuple[str, list[Point]]],
-          text: str, more: str = "", limit: tuple[str, float] | None = None) -> Space:
+          text: str, more: str = "", limit: tuple[str, float] | None = None,
+          long: Long | None = None) -> Space:
     """What is drawn in a box. names, rate: of the components, and their unit (name, how many make one of the
     scene's). branches: those that come into it are drawn, in the colours of their numbers; more: behind their
     names; text: of the separatrix. limit: its words, and of |omega| its size, drawn where it comes into the
-    box, and fills a part of it."""
+    box, and fills a part of it. long: what is drawn of a motion of many turns in place of its path."""
     (unit, per), shares = rate, [box.share(at) for at in path]
     named = tuple(with_unit(name, unit) for name in names)
     called, size = limit or ("", 0.0)
-    limits = [(f"{called}, {per * size:.4g} {unit}".rstrip(), arc)
-              for arc in (_cut(size, box) if size > SMALL * max(box.half) else ())]
+    veils = [(f"{called}, {per * size:.4g} {unit}".rstrip(), called, part)
+             for part in (_sphere(size, box) if size > SMALL * max(box.half) else ())]
+    veils += [(part.name, BAND, part) for part in (() if long is None else long.skins)]
     shown = [(style.SURFACES[n % len(style.SURFACES)],
               replace(branch, name=f"{branch.name.capitalize()} of the separatrix{more}"))
              for n, branch in enumerate(branches) if _comes_in(branch, box)]
-    return Space(named, per, box, tuple(shown), (*curves, *limits),
-                 tuple((kind, at) for kind, at in marks if box.holds(at)), path, _arrows(path, shares),
-                 _view(shares), text)
+    view = _view(shares)
+    lines = ((path,) if path else ()) if long is None else tuple(line for line, _ in long.bold)
+    arrows = (_arrows(path, shares) if long is None
+              else tuple(arrow for line in lines for arrow in _arrow_of(line, box)))
+    return Space(named, per, box, tuple(shown), tuple(curves),
+                 tuple((kind, at) for kind, at in marks if box.holds(at)), path, arrows, view, text,
+                 lines=lines, times=_beside(() if long is None else long.bold, box, view),
+                 veils=tuple((name, str(look(kind)["color"]), part) for name, kind, part in veils))
 
 
 def _comes_in(branch: PlainBranch, box: Box) -> bool:
@@ -234,23 +263,29 @@ def _comes_in(branch: PlainBranch, box: Box) -> bool:
                for n, at in enumerate(branch.points))
 
 
-def _cut(size: float, box: Box) -> Iterable[list[Point]]:
-    """Arcs in which planes across the axes cut the sphere of |omega| = size inside a box."""
-    for axis, fraction in product(range(3), LEVELS):
-        level = box.middle[axis] + fraction * box.half[axis]
-        if abs(level) >= size:
+def _sphere(size: float, box: Box) -> Iterator[Grid]:
+    """The parts of the sphere of |omega| = size that may come into a box: on each of its six sides, parted by
+    the component that is the largest there, as far as the box reaches."""
+    for axis, side in product(range(3), (1, -1)):
+        out = sorted((side * box.low[axis], side * box.high[axis]))
+        low, high = max(out[0], size / math.sqrt(3)), out[1]
+        if low > high:
             continue
-        (item, other), radius = [n for n in range(3) if n != axis], math.sqrt(size**2 - level**2)
-        ends = {0.0, math.tau}  # and where the circle leaves the box
-        for n, first, opposite in ((item, math.acos, 0.0), (other, math.asin, math.pi)):
-            turns = [first(edge / radius) for edge in (box.low[n], box.high[n]) if abs(edge) < radius]
-            ends |= {turn % math.tau for resolved in turns for turn in (resolved, opposite - resolved)}
-        for low, high in pairwise(sorted(ends)):
-            steps = 2 * max(1, math.ceil(ARC * (high - low)))
-            arc: list[Point] = [(*at[:axis], level, *at[axis:]) for turn in spread(low, high, steps + 1)
-                                for at in [(radius * math.cos(turn), radius * math.sin(turn))]]
-            if box.holds(arc[steps // 2]):
-                yield arc
+        spans = []
+        for n in ((axis + 1) % 3, (axis + 2) % 3):
+            slopes = [edge / far for edge in (box.low[n], box.high[n]) for far in (low, high)]
+            spans.append((max(min(slopes), -1.0), min(max(slopes), 1.0)))
+        if any(first >= last for first, last in spans):
+            continue
+        points: list[Point] = []
+        for m, n in product(range(ARC + 1), repeat=2):
+            at = [0.0] * 3
+            at[axis] = float(side)
+            for place, part, (first, last) in zip(((axis + 1) % 3, (axis + 2) % 3), (m, n), spans):
+                at[place] = first + (last - first) * part / ARC
+            points.append(tuple(size * v / math.hypot(*at) for v in at))
+        if any(map(box.holds, points)):
+            yield Grid(LIMIT, ARC + 1, ARC + 1, points)
 
 
 def beside_limit(limit: tuple[str, float] | None, path: list[Point]) -> list[tuple[str, Point]]:
@@ -374,6 +409,37 @@ def _arrows(path: list[Point], shares: list[list[float]]) -> tuple[tuple[Point, 
     return tuple(rows)
 
 
+def _arrow_of(line: list[Point], box: Box) -> Iterator[tuple[Point, Point]]:
+    """(place, step) in the middle of a turn; nothing where that is too small for an arrow."""
+    shares = [box.share(at) for at in line]
+    if len(line) < 2 or max(max(v) - min(v) for v in zip(*shares)) < 1.5 * ARROW:
+        return
+    n = len(line) // 2 - 1
+    step = math.dist(shares[n], shares[n + 1])
+    if step and all(abs(v) <= 1 for v in shares[n]):
+        ends = list(zip(line[n], line[n + 1]))
+        yield (tuple((a + b) / 2 for a, b in ends), tuple(ARROW * (b - a) / step for a, b in ends))
+
+
+def _beside(bold: Iterable[tuple[list[Point], str]], box: Box,
+            view: tuple[float, float]) -> tuple[tuple[Point, str], ...]:
+    """(place, words) beside each of the turns that are drawn: at the end of it, seen from a side, that is
+    farthest from what is written already, the smallest turns first; at one place, words are joined."""
+    seen_from = lambda at: across(box.share(at), view)
+    ends = [([choose(line, key=lambda at: seen_from(at)[n]) for n in (0, 1) for choose in (max, min)], text)
+            for line, text in bold]
+    ends.sort(key=lambda row: sum(math.dist(seen_from(a), seen_from(b)) for a, b in combinations(row[0], 2)))
+    out: list[tuple[Point, list[str]]] = []
+    for places, text in ends:
+        free = lambda at: min((math.dist(seen_from(at), seen_from(other)) for other, _ in out), default=1.0)
+        best = max(places, key=free)
+        if free(best) > CROWDED:
+            out.append((best, [text]))
+        else:
+            min(out, key=lambda row: math.dist(seen_from(best), seen_from(row[0])))[1].append(text)
+    return tuple((at, "; ".join(text for _, text in bold if text in texts)) for at, texts in out)
+
+
 def _view(shares: list[list[float]]) -> tuple[float, float]:
     """From where a path is seen at its broadest; the first of VIEWS where others are hardly better."""
     points = shares[::max(1, len(shares) // 200)]
@@ -479,11 +545,14 @@ def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
     """What `space.js` takes: places as whole numbers of 16 bits (the low byte first), HALF for half of the
     box, each list of them as `row` packs it."""
     box, packed = drawn.box, lambda places: row(_packed(places, drawn.box))
-    curves = [*drawn.curves, *([(MOTION, drawn.path)] if drawn.path else [])]
+    curves = [*drawn.curves, *((MOTION, line) for line in drawn.lines)]
     return {"names": drawn.names, "middle": box.scaled(drawn.rate).middle,
             "half": box.scaled(drawn.rate).half, "view": drawn.view,
             "branches": [{"name": item.name, "colour": colour, "rows": item.rows, "columns": item.columns,
                           "at": packed(item.points)} for colour, item in drawn.branches],
+            "veils": [{"name": name, "colour": colour, "rows": item.rows, "columns": item.columns,
+                       "at": packed(item.points)} for name, colour, item in drawn.veils],
+            "times": [[_round(box.share(at)), text] for at, text in drawn.times],
             "curves": [{"kind": text, "colour": look(text)["color"], "at": packed(places)}
                        for text, places in curves],
             "points": [{"kind": text, "colour": look(text)["color"], "at": _round(box.share(at))}

@@ -69,12 +69,12 @@ MARKER = {
 }
 EQUILIBRIA = {"stable": "stable equilibria", "unstable": "unstable equilibria",
               "undecided": "equilibria of undecided stability"}  # kind -> its words in a legend
-SPACE = {  # words of a legend -> how that is drawn in the space of rates
+SPACE: dict[str, dict[str, Any]] = {  # words of a legend -> how that is drawn in the space of rates
     "this motion": MEANING["this motion"], "start": MARKER["start"],
     "nearest point of the separatrix": {"marker": "o", "color": PALE, "markeredgecolor": BLACK,
                                         "markersize": 6, "linestyle": "none"},
-    "limit of |ω|": {"color": VERMILION, "linestyle": "--", "linewidth": 0.9},
-    "assumed limit of |ω|": {"color": VERMILION, "linestyle": (0, (2, 3)), "linewidth": 0.9},
+    "limit of |ω|": {"color": VERMILION}, "assumed limit of |ω|": {"color": VERMILION},
+    "least to greatest": {"color": VIOLET},
     **{equilibrium: MEANING[kind] for kind, equilibrium in EQUILIBRIA.items()}}
 SURFACES = ("#B4BABE", "#5F6467", "#EFEDE9", "#868B8F")  # of the separatrix, in order: greys
 SERIES = (BLACK, VIOLET, SAGE, WINE, GREY)               # one curve each for a list of parameters

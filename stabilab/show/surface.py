@@ -24,11 +24,11 @@ from .axes import PLAIN
 from .data import plain
 from .names import spare
 from .plot import canvas
-from .plot.in_space import FACETS, PALEST, away, rows, sight, space_of
+from .plot.in_space import FACETS, PALEST, SHEER, away, rows, sight, space_of
 from .plot.subject import measures, subject
 from .progress import each
 from .render_probe import probe, use
-from .space import Space, across, look, numbers
+from .space import Space, across, look, numbers, shifted
 from .terminal import some
 
 if TYPE_CHECKING:
@@ -186,6 +186,7 @@ def draw(case: Any, path: Path) -> Path:
         ax.imshow(pixels)
         ax.set_axis_off()
         _label(ax, result)
+        _times(ax, result)
         canvas.explained(ax, rows(result), True, item.heading, canvas.answer(item, scale),
                          away(item, result, scale), notes=canvas.notes(item, scale))
         return style.save(figure, path)
@@ -220,11 +221,19 @@ def plotter(result: Space) -> Any:
                        specular=0.1, opacity=GLASS, name=f"branch {n}")
     for phrase, places in result.curves:
         tube(share(places), LINE if phrase in style.SPACE else THIN, look(phrase)["color"])
-    path, toward = share(result.path or np.empty((0, 3))), sight(result.view)
-    tube(path, LINE, style.VIOLET)
-    for axis in range(3):
-        wall = np.where(np.arange(3) == axis, -np.sign(toward[axis]), path)
-        tube(wall, THIN, PALEST)
+    toward = sight(result.view)
+    for route in map(share, result.lines):
+        tube(route, LINE, style.VIOLET)
+        for axis in range(3):
+            wall = np.where(np.arange(3) == axis, -np.sign(toward[axis]), route)
+            tube(wall, THIN, PALEST)
+    for n, (_, colour, veil) in enumerate(result.veils):
+        grid = np.moveaxis(share(veil.points).reshape(veil.rows, veil.columns, 3), 2, 0)
+        sheer = pyvista.StructuredGrid(*(part[..., None] for part in grid)).extract_surface(
+            algorithm="dataset_surface").clip_box((-1, 1) * 3, invert=False)
+        if sheer.n_cells:
+            stage.add_mesh(sheer, color=colour, ambient=0.4, diffuse=0.6, opacity=SHEER[colour],
+                           name=f"veil {n}")
     for at, step in result.arrows:
         stage.add_mesh(pyvista.Cone(center=share(at), direction=np.divide(step, result.box.half), height=0.11,
                                     radius=0.04),
@@ -233,7 +242,7 @@ def plotter(result: Space) -> Any:
         location = share(at)
         stage.add_mesh(pyvista.Sphere(radius=BALL, center=location), color=look(phrase)["color"])
         tube([location, np.array([*location[:2], -1.0])], THIN, style.GREY)
-    for axis, ticks in enumerate(_ticks(result)):  # a grid on the walls behind
+    for axis, (ticks, _) in enumerate(_ticks(result)):  # a grid on the walls behind
         for other in (n for n in range(3) if n != axis):
             for mark in (*(tick for tick, _ in ticks), -1.0, 1.0):
                 ends = np.tile(-np.sign(toward), (2, 1))
@@ -244,19 +253,37 @@ def plotter(result: Space) -> Any:
     return stage
 
 
-def _ticks(result: Space) -> list[list[tuple[float, str]]]:
-    """Of each axis (place in halves of the box, number) of round numbers."""
-    box = result.box.scaled(result.rate)
-    return [[((v - box.middle[n]) / box.half[n], number) for v, number in zip(ticks, numbers(ticks))]
-            for n, ticks in enumerate(map(box.ticks, range(3)))]
+def _ticks(result: Space) -> list[tuple[list[tuple[float, str]], str]]:
+    """Of each axis [(place in halves of the box, number)] of round numbers, and its name."""
+    box, out = result.box.scaled(result.rate), []
+    for n, name in enumerate(result.names):
+        ticks = box.ticks(n)
+        values, named = shifted(ticks, name)
+        out.append(([((v - box.middle[n]) / box.half[n], text) for v, text in zip(ticks, numbers(values))],
+                    named))
+    return out
+
+
+def _on_screen(result: Space) -> Any:
+    """What gives the dots at which a place, in halves of the edges of the box, is seen."""
+    toward, per = sight(result.view), SIDE / 2 / np.tan(np.radians(ANGLE / 2))
+    return lambda p: SIDE / 2 + per * np.array([1, -1]) * across(p, result.view) / (AWAY - toward @ p)
+
+
+def _times(ax: Any, result: Space) -> None:
+    """The times beside the turns of a motion of many."""
+    from matplotlib.patheffects import withStroke
+    location = _on_screen(result)
+    for at, text in result.times:
+        x, y = location(np.array(result.box.share(at)))
+        ax.text(x, y, f"  {text}  ", ha="left" if x >= SIDE / 2 else "right", va="center", fontsize=9,
+                path_effects=[withStroke(linewidth=2.5, foreground="white")])
 
 
 def _label(ax: Any, result: Space) -> None:
     """Numbers and names along the outer edges of the box."""
-    toward = sight(result.view)
-    per = SIDE / 2 / np.tan(np.radians(ANGLE / 2))
-    location = lambda p: SIDE / 2 + per * np.array([1, -1]) * across(p, result.view) / (AWAY - toward @ p)
-    for axis, (name, ticks) in enumerate(zip(result.names, _ticks(result))):
+    location = _on_screen(result)
+    for axis, (ticks, name) in enumerate(_ticks(result)):
         edges = [np.insert(np.array(corner, float), axis, 0) for corner in product((-1, 1), repeat=2)]
         outer = max(edges, key=lambda at: -location(at)[0] if axis == 2
                     else location(at)[1] + 0.25 * abs(location(at)[0] - SIDE / 2))

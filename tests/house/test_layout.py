@@ -71,7 +71,7 @@ DOORS = {
     ("stabilab.integrate.events", "stabilab.integrate.trajectory"): "loaded for effects that stop alone",
     ("stabilab.physics.coefficients", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.physics.coefficients", "stabilab.physics.states"): "loads numpy",
-    ("stabilab.show.explore.pictures", "stabilab.show.plot.path"): "loads numpy",
+    ("stabilab.show.explore.pictures", "stabilab.show.plot.long"): "loads numpy",
     ("stabilab.show.explore.pictures", "stabilab.show.plot.turning"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.answers.when"): "loads numpy",
     ("stabilab.show.space", "stabilab.orbit.separatrix.branches"): "loads numpy",

@@ -92,7 +92,7 @@ def test_colours_of_one_screen_are_told_apart_by_every_reader(name, eye):
 MEANS = {style.BLUE: "(?<!un)stable|bounded|stays|steady|centre|least energy|neighbours|not yet, proved|in the middle",
          style.AMBER: "undecided|only while|if ",
          style.VERMILION: "unstable|saddle|barrier|most energy|spin|limit|reached|leave|earliest|latest|later than",
-         style.VIOLET: "this motion|where it is|rates at the start|energy of this motion|draws|^ω$|MEGNO",
+         style.VIOLET: "this motion|least to greatest|where it is|rates at the start|energy of this motion|draws|^ω$|MEGNO",
          style.SAGE: "^cut|printed|other states|wheel", style.WINE: "^cut|corrected|averaged|expansion|wheel"}
 MEANS |= {colour: rf"[ωx]\D*{n}|{n}$|^{'xyz'[n - 1]}\b|\b{'xyz'[n - 1]}$|ω_{'xyz'[n - 1]}|limits|{rank}"
           for n, (colour, rank) in enumerate(zip(style.AXES, ("major|minor|intermediate",) * 3), 1)}
@@ -121,6 +121,8 @@ def of(artist) -> list[str]:
         shown += [artist.get_color()] if artist.get_linestyle() not in ("None", "none", "") else []
         if artist.get_marker() not in ("None", "none", "", None):
             shown += [artist.get_markeredgecolor(), artist.get_markerfacecolor()]
+    elif artist.get_gid() in MEANS:  # shades of what is lit and seen through
+        shown.append(artist.get_gid())
     elif isinstance(artist, Collection):
         shown += [*artist.get_facecolor()] + ([*artist.get_edgecolor()] if max(artist.get_linewidth()) else [])
     elif isinstance(artist, Patch):

@@ -498,32 +498,39 @@ def test_the_vertical_of_a_top_stands_upright_in_space_all_the_time():
 
 
 @pytest.mark.parametrize("frames", [40, 100])
-def test_a_film_of_a_spin_up_goes_on_for_as_long_as_its_pictures_show_each_step(frames):
-    """Oracle: a run of its own; the rate at the film's end, which is about the greatest so far, times a step
-    of it is some 15 degrees."""
+def test_a_film_of_a_spin_up_goes_slow_at_its_start_its_limit_and_its_end_and_fast_between(frames):
+    """cubesat-3u is at its limit after 16.95 s (SciPy's DOP853 in test_to_limit) and followed for four times that.
+    Oracle of the angles: the trace of R^T R' of two pictures."""
     from stabilab.show.plot.turning import turn
+    from stabilab.show.units import units_of
     case = load("cubesat-3u")
     found = turn(subject.subject(case), frames)
-    rates = np.linalg.norm(stabilab.trajectory(case.scene, case.state,
-                                               np.linspace(0, found.t[-1], 2001)).states, axis=1)
-    assert 15 / 1.2 < math.degrees(rates.max()) * (found.t[1] - found.t[0]) < 16 and not found.whole
+    assert len(found.t) == frames and (np.diff(found.t) > 0).all() and found.whole
+    assert found.t[0] == 0 and found.t[-1] == pytest.approx(67.79, abs=0.01)
+    angles = np.degrees(np.arccos(np.clip((np.einsum("nij,nij->n", found.rotations[1:], found.rotations[:-1]) - 1)
+                                          / 2, -1, 1)))
+    start, limit, end = found.even
+    assert all(angles[a:b].max() < 15.5 for a, b in found.even)
+    assert start[0] == 0 and end[1] == frames - 1 and found.t[limit[0]] < 16.95 < found.t[limit[1]]
+    steps = np.diff(found.t)
+    # fast: more time from picture to picture
+    assert np.median(steps[limit[1]:end[0]]) > 5 * max(steps[end[0]:end[1]])
+    notes = found.notes(units_of(case))
+    assert (*limit, "limit: 16.95 s") in notes and [text for *_, text in notes].count("fast") == 2
 
 
-def test_a_film_that_ends_before_its_span_says_so(tmp_path):
-    """cubesat-3u is followed to four times the 16.95 s of its limit, in which it comes to spin too fast for a film;
-    the body without a torque is shown whole."""
-    for name, told in (("cubesat-3u", r"The first ([\d.]+) s of 67\.79 s are shown\."),
+def test_a_film_says_how_it_goes_and_when_the_limit_is_reached(tmp_path):
+    """The body without a torque has no limit and is shown evenly."""
+    for name, told in (("cubesat-3u", r"Slow at the start, at 16\.95 s \(limit\) and at the end, fast between\."),
                        ("torque-free-body", "")):
-        moving = stabilab.plot.attitude(load(name), frames=150)
+        moving = stabilab.plot.attitude(load(name), frames=100)
         moving._draw_was_started = True
         words = " ".join(text.get_text() for text in moving._fig.axes[0].texts)
         page = to_file.write(load(name), tmp_path / f"{name}.html", "attitude").read_text(encoding="utf-8")
-        for shown in (words, page):
-            assert re.search(told, shown) and (told or "The first" not in shown)
-        if told:  # the page has more pictures, so it goes on for longer
-            ends = [float(re.search(told, shown)[1]) for shown in (words, page)]
-            assert 5 < ends[0] < ends[1] < 300 and ends[1] == pytest.approx(
-                json.loads(re.search(r"const data = (.*?);\n", page)[1])["t"][-1], rel=1e-3)
+        data = json.loads(re.search(r"const data = (.*?);\n", page)[1])
+        assert re.search(told, words) and (told or "Slow" not in words)
+        assert [text for *_, text in data["notes"]] == ["limit: 16.95 s"] * bool(told)
+        assert ("SPINS UP" in page.upper()) == bool(told)  # the answer heads the page
 
 
 def test_the_page_of_an_attitude_needs_nothing_else_and_its_title_is_as_written_and_ends_no_script(tmp_path):

@@ -9,7 +9,6 @@ from matplotlib import pyplot as plt
 import stabilab
 from stabilab import errors
 from stabilab.show import style
-from stabilab.show.plot import phase_plane as plane_section
 from stabilab.show.plot import subject, to_file
 from stabilab.show.plot import subject as which
 from stabilab.unreduced.periodic import crossed, neighbours_of, returns
@@ -107,22 +106,77 @@ def test_neighbours_inside_the_island_stay_and_those_far_outside_leave(island):
 
 
 def test_axes_have_the_two_other_rates_in_the_units_asked_for():
-    case = load("torque-free-gyrostat")
-    deg, si = (stabilab.plot.section(case, units=units, passages=5) for units in ("deg", "si"))
-    # passages of the third
-    assert (si.get_xlabel(), si.get_ylabel()) == (r"$\omega_1$ (rad/s)", r"$\omega_2$ (rad/s)")
+    case = load("torque-free-body")
+    deg, si = (stabilab.plot.section(case, units=units, neighbours=1) for units in ("deg", "si"))
+    # the motion goes round the first axis
+    assert (si.get_xlabel(), si.get_ylabel()) == (r"$\omega_2$ (rad/s)", r"$\omega_3$ (rad/s)")
     assert dots(deg, MOTION) == pytest.approx(np.degrees(dots(si, MOTION))) and "(deg/s)" in deg.get_xlabel()
     plt.close("all")
 
 
+def lines(ax, colour):
+    """[(n, 2)] of the lines of a colour."""
+    return [np.array(line.get_data()).T for line in ax.get_lines()
+            if line.get_color() == colour and len(line.get_xdata()) > 2]
+
+
+def test_closed_orbits_of_a_free_body_are_ellipses_out_to_that_of_the_separatrix():
+    """By hand: of 2 T = sum D w^2 and H^2 = sum D^2 w^2, H^2 - 2 T D1 = D2 (D2 - D1) w2^2 + D3 (D3 - D1) w3^2 is
+    the same all along an orbit; at the separatrix 2 T D2 = H^2."""
+    case = load("torque-free-body")
+    ax = stabilab.plot.section(case, units="si")
+    d1, d2, d3 = case.scene.body.inertia
+    assert d1 > d2 > d3  # it goes round the first axis
+    kept = lambda line: d2 * (d1 - d2) * line[:, 0]**2 + d3 * (d1 - d3) * line[:, 1]**2
+    w = np.array(case.state)
+    momentum, energy = np.sum((np.array([d1, d2, d3]) * w)**2), np.sum(np.array([d1, d2, d3]) * w**2)
+    edge, own = momentum * (d1 / d2 - 1), energy * d1 - momentum
+    rings = lines(ax, BLUE)
+    sizes = [kept(ring).mean() for ring in rings]
+    assert len(rings) == 10 and sizes == sorted(sizes) and 0 < sizes[0] and sizes[-1] < edge
+    for ring in rings:
+        assert np.ptp(kept(ring)) < 1e-9 * edge and ring[0] == pytest.approx(ring[-1], abs=1e-9)
+    (rim,), (motion,) = lines(ax, style.BLACK), lines(ax, MOTION)
+    assert kept(rim) == pytest.approx(np.full(len(rim), edge), rel=1e-4)
+    assert kept(motion) == pytest.approx(np.full(len(motion), own), rel=1e-8)
+    plt.close("all")
+
+
+def test_closed_orbits_under_a_torque_are_those_that_another_integrator_follows():
+    """Oracle: DOP853 on the scaled equations from a state of a ring, for as long as it takes to come back; the rings
+    and the separatrix go round each other."""
+    from matplotlib.path import Path
+    from scipy.integrate import solve_ivp
+
+    from stabilab.show.plot import rings
+    item = subject.subject(load("minor-axis-100"))
+    found = rings.island(item, 4)
+    assert found.axis is not None and found.kept.endswith("integral")
+    shown = [*found.rings, found.rim]
+    assert all(Path(b).contains_points(a[:-1]).all() for a, b in zip(shown, shown[1:]))
+    rate = item.scene.quadratic().rate
+    run = solve_ivp(lambda t, x: rate(list(x)), (0, float(item.motion.period)), item.state, "DOP853", rtol=1e-10,
+                    atol=1e-12, max_step=0.002)
+    path = np.delete(run.y.T, found.axis, axis=1)
+    # a place of the ring is at most half a step of the run from one of its places
+    step = np.linalg.norm(np.diff(path, axis=0), axis=1).max()
+    apart = [np.linalg.norm(path - at, axis=1).min() for at in found.own[::40]]
+    assert max(apart) < 0.51 * step < 0.03 and found.own[0] == pytest.approx(path[0])
+
+
+def test_rings_that_would_lie_on_others_are_drawn_over_the_turn():
+    from stabilab.show.plot import rings
+    found = rings.island(subject.subject(load("two-wheels-minor-axis")), 10)
+    assert found.axis is None and found.about == 2 and rings.nested([*found.rings, found.rim]) == 11
+
+
 @pytest.mark.slow
-def test_a_periodic_motion_passes_at_one_place_once_a_period_and_neighbours_each_at_theirs():
+def test_a_periodic_motion_passes_at_one_place_once_a_period():
     """A motion that reduces to one degree of freedom and is bounded repeats; its period by the integral of
     the reduced motion."""
     case = load("minor-axis-100")
-    ax = stabilab.plot.section(case, neighbours=3, passages=10)
-    own, others = dots(ax, MOTION), dots(ax, BLUE)
-    assert np.ptp(own, axis=0).max() < 1e-9 and len(np.unique(others.round(6), axis=0)) == 3
+    ax = stabilab.plot.section(case, neighbours=3)
+    assert len(lines(ax, BLUE)) == 3
     times, _ = returns(case.scene, case.state, crossed(case.scene, case.state), 3)
     assert np.diff(times) == pytest.approx(float(stabilab.period(case.scene, case.state)), rel=1e-10)
     assert "periodic, 1.804 τ" in ax.get_title()
@@ -165,8 +219,7 @@ def test_what_has_no_section_is_refused_with_the_reason():
 
 
 @pytest.mark.slow
-def test_a_section_with_neighbours_is_written_the_same_again_and_other_kinds_have_none(tmp_path, monkeypatch):
-    monkeypatch.setattr(plane_section, "PASSAGES", 6)
+def test_a_section_with_neighbours_is_written_the_same_again_and_other_kinds_have_none(tmp_path):
     case = load("torque-free-body")
     one, two = (to_file.write(case, tmp_path / f"{n}.png", "section", neighbours=2).read_bytes()
                 for n in (1, 2))

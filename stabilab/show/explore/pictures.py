@@ -20,7 +20,7 @@ import math
 import struct
 from array import array
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ...answers.equilibria import equilibria
@@ -40,6 +40,7 @@ from ...verify.numbers import shown
 from ..assumed import Assumed
 from ..data import plain
 from ..space import limit_time, packed
+from ..turns.band import Long
 from ..units import Units, with_unit
 
 TYPES = {"int16": "h", "float32": "f"}
@@ -295,23 +296,40 @@ def why(scene: AnyScene) -> str:
         f"that is known; what is drawn is the motion itself")
 
 
+def _plots() -> Any:
+    """The modules of plots that follow a motion, which load NumPy."""
+    from ..plot import long, turning
+    return long, turning
+
+
 def path(case: Case, until: float) -> Path:
     """(times, rates) of the motion up to a time, or as far as a run goes."""
     import numpy as np
 
-    from ..plot.path import along, subject
+    long, turning = _plots()
     turn = until * math.hypot(*case.state)
     number = min(MOST, max(ORBIT_POINTS, math.ceil(turn / CLOSE)))
-    t, rates = along(subject(case), np.linspace(0.0, until, number))
+    t, rates = long.along(turning.subject(case), np.linspace(0.0, until, number))
     return t.tolist(), [(x, y, z) for x, y, z in rates.tolist()]
 
 
-def film(case: Case, until: float, bag: Bag, units: Units, limit: Assumed | None = None) -> dict[str, Any]:
-    """The body as it turns in that time, as `templates/turning.js` draws it. limit: as of `turning.turn`."""
-    from ..plot import turning
-    item = turning.subject(case, span=until)
+def turns_of(case: Case, motion: Motion, until: float, units: Units) -> tuple[Long, list[Any]] | None:
+    """(what is drawn of a motion of many turns up to a time, the places from which that is made); None of one
+    of few."""
+    long, turning = _plots()
+    resolved: tuple[Long, list[Any]] | None = long.until(replace(turning.subject(case), known=motion), until,
+                                                      units.times)
+    return resolved
+
+
+def film(case: Case, motion: Motion | None, until: float, bag: Bag, units: Units,
+         limit: Assumed | None = None) -> dict[str, Any]:
+    """The body as it turns in that time, as `templates/turning.js` draws it. motion: what is known of it;
+    limit: as of `turning.turn`."""
+    _, turning = _plots()
+    item = replace(turning.subject(case, span=until), known=motion)
     result = turning.turn(item, FRAMES, limit)
-    drawn = turning.drawn(item, result, units.times(until), units.rates,
+    drawn = turning.drawn(item, result, units.times(until), units.rates, units,
                           lambda rows: bag.add("float32", rows.ravel().tolist()))
     return drawn | {"names": [units.axes.label(n) for n in (1, 2, 3)],
                     "words": f"Arrows: {result.words}. {result.part(units)}"}

@@ -43,6 +43,8 @@ from ..terminal import capital, lettered, written
 from ..text.classification import called
 from ..text.headline import headline, judged, look, two_lines
 from ..text.motion import margins
+from ..turns import band
+from ..turns.moment import moment
 from ..units import SHORT, Units, but_for_rounding, units_of
 from . import parameters, pictures
 from .parameters import changed
@@ -98,6 +100,7 @@ SWEPT = (
     "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer "
     "every combination.")
 QUICK = 2_000_000  # multiplications for the proof of a time at a limit: some tenths of a second
+FILM = 20_000.0  # rad of turn at most, of which a film is followed
 SLOW_SECONDS = 0.12  # s: a motion whose kind took longer the last time waits until the slider rests
 
 
@@ -170,9 +173,12 @@ class Session:
         if result is not None and result.ending is not None and result.ending.until is not None:
             end = seen(case.span, result, until)[1]  # past it, though its turns are too many for the space
             full = self._once("whole", (case.scene, case.state, end), lambda: pictures.path(case, end))
+        long = self._turns(case, result, times, path, until, moving, supposed)
+        cut = "" if long is not None and long[2] else cut
         picture = self._space(bag, case, twin, result, at_rest, times, path, request.get("box"), moving,
-                              supposed)
+                              supposed, long)
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
+        shown = full[0][-1] if math.hypot(*case.state) * full[0][-1] <= FILM else times[-1]
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
         holds = None if result is None else result.validity  # of an approximate law
         notes = [note, self._swept, cut, holds and units.said(holds.reason),
@@ -188,7 +194,7 @@ class Session:
                          *([["limit", supposed.words(units)]] if supposed else [])],
                 "plane": None if twin is None else pictures.drawn_planes(bag, twin, case.state, units),
                 "time": pictures.over_time(bag, case, result, *full, units, supposed),
-                "film": pictures.film(case, times[-1], bag, units, supposed) if turns else None}
+                "film": pictures.film(case, result, shown, bag, units, supposed) if turns else None}
         built["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else pictures.NOT_YET
         return built | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
@@ -232,8 +238,24 @@ class Session:
         self._cost["equilibria"] = max(self._cost.get("equilibria", 0.0), time.process_time() - began)
         return result
 
-    def _space(self, bag, case, twin, result, at_rest, times, path, request, moving, supposed):
-        nearby = space.near_part(times, path, result, supposed and supposed.time)
+    def _turns(self, case, result, times, path, until, moving, supposed):
+        """(what is drawn of a motion of many turns, the places from which that is made, whether of all of it:
+        once the slider rests); None of one of few."""
+        reached = supposed and supposed.time
+        path = space.near_part(times, path, result, reached)
+        times = times[:len(path)]
+        key = case.scene, case.state, until, moving, result is None
+        if result is not None and not moving and present("numpy") and band.often(path) > band.MANY:
+            long = self._once("turns", key, lambda: pictures.turns_of(
+                case, result, seen(case.span, result, until, reached)[1], self.units))
+            return None if long is None else (*long, True)
+        long = self._once("turns", key, lambda: band.along(
+            times, path, self.units.times(times[-1]), result and moment(result, reached)))
+        return None if long is None else (long, path, False)
+
+    def _space(self, bag, case, twin, result, at_rest, times, path, request, moving, supposed, long):
+        nearby = (space.near_part(times, path, result, supposed and supposed.time) if long is None
+                  else long[1])
         bare, ghost = (None, False) if twin is None else _without_tilt(twin)
         marks = space.marks_of(case.state, result, at_rest)
         limit = space.limit_of(case, supposed)
@@ -250,7 +272,7 @@ class Session:
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
                             lambda: space.curves_of(at_rest, box, *POINTS[moving], known))
         drawn = space.space(names, self.units.rates, box, branches, nearby, marks, curves, text,
-                      " without the tilt" * ghost, limit)
+                      " without the tilt" * ghost, limit, long and long[0])
         if ghost:
             text = ("No separatrix is known for a torque off the axes"
                      + (": the surface drawn is that of the torque without its tilt" if drawn.branches

@@ -29,16 +29,22 @@ SIZE = (13.0, 6.6)
 TOP = 4.0          # of MEGNO's colours
 
 
-def write(case: Any, result: Chaos, out: str | Path) -> Path:
-    """Draw the motion of a case and write the picture; the same case gives the same bytes. Raises InputError
-    for another ending."""
+def write(case: Any, result: Chaos, out: str | Path) -> Path | str:
+    """Draw the motion of a case and write the picture; the same case gives the same bytes. A sentence, and no
+    file, where there is nothing to see. Raises InputError for another ending."""
     demand(*style.PACKAGES)
     target, item = endings.file(out, endings.PICTURES), subject(case)
+    why = subjects.why_not("section", item)
+    if why and not np.isfinite(result.history).any():
+        return f"no picture is written: {result.because}"
     with style.drawing() as plt:
-        if subjects.why_not("section", item):
+        if why:
             figure, ax = plt.subplots(figsize=(7.6, 4.8), layout="constrained")
             _over_time(ax, case, result)
             return style.save(figure, target)
+        if phase_plane.repeats(item):
+            rings: Any = phase_plane.section(item).figure
+            return style.save(rings, target)
         figure, (left, right) = plt.subplots(1, 2, figsize=SIZE, layout="constrained")
         phase_plane.section(item, ax=left, neighbours=NEIGHBOURS)
         _map(figure, right, left, item, float(result.times[-1]) / SHORTER)
@@ -48,10 +54,6 @@ def write(case: Any, result: Chaos, out: str | Path) -> Path:
 def _over_time(ax: Any, case: Any, result: Chaos) -> None:
     ax.plot(result.times, result.history, marker="o", color=style.VIOLET)
     ax.axhline(2, color=style.GREY, linewidth=0.8)
-    if not np.isfinite(result.history).any():  # nothing that an axis could be made from
-        ax.set_xlim(result.times[0], result.times[-1])
-        ax.set_ylim(0, TOP)
-        ax.text(0.5, 0.25, "not followed: it does not come back", transform=ax.transAxes, ha="center")
     ax.set_xscale("log")
     ax.set_xlabel(f"followed for ({case.scene.time_unit})")
     ax.set_ylabel("MEGNO (2 on tori)")

@@ -22,6 +22,7 @@ from ..space import (
     WHOLE,
     Box,
     Space,
+    across,
     beside_limit,
     box_of,
     branches_of,
@@ -32,10 +33,13 @@ from ..space import (
     near_part,
     nearest,
     numbers,
+    shifted,
 )
 from ..space import space as drawn_in
+from ..turns.band import Long, often
 from . import canvas
 from . import subject as subjects
+from .long import Clock, long
 from .path import path, thinned, turning
 from .subject import Measures, Subject, measures, subject
 
@@ -48,6 +52,8 @@ if TYPE_CHECKING:
 VIEW = VIEWS[0]  # degrees: elevation, azimuth
 ZOOM = 0.98  # leaves room for the labels
 PALE = 0.75  # share of its colour that a surface has
+# what a surface hides that is seen through: the band of a motion, the sphere of its limit
+SHEER = {style.VIOLET: 0.4, style.VERMILION: 0.22}
 LIGHT = np.array([0.35, -0.55, 0.76])
 DARKEST = 0.62  # share of its colour that a facet keeps which the light only grazes
 ROOMY = 3.8  # inches: axes that are smaller have fewer ticks
@@ -113,12 +119,25 @@ def facets(ax: Axes3D, surfaces: list[tuple[np.ndarray, str]], pale_by: float = 
                                          antialiaseds=False, rasterized=True, zorder=0))
 
 
+def veil(ax: Axes3D, triangles: np.ndarray, colour: str) -> None:
+    """A surface of triangles (n, 3, 3) that is seen through, lit from above."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    if not len(triangles):
+        return
+    drawn = Poly3DCollection(triangles, facecolors=_lit(triangles, pale(colour, 1.0)), edgecolors="none",
+                             linewidths=0, antialiaseds=False, rasterized=True, zorder=4)
+    # as a whole: facets that are each seen through would be seen twice where they meet
+    drawn.set_agg_filter(lambda image, dpi: (image * (1.0, 1.0, 1.0, SHEER[colour]), 0, 0))
+    drawn.set_gid(colour)
+    ax.add_collection3d(drawn)
+
+
 def _lit(triangles: np.ndarray, colour: Sequence[float]):
     """(n, 3) colours of facets: darker where the light only grazes."""
     across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     size = np.linalg.norm(across, axis=1, keepdims=True)
     across = np.divide(across, size, out=np.tile(LIGHT, (len(across), 1)), where=size > 0)
-    return (DARKEST + (1 - DARKEST) * np.abs(across @ LIGHT))[:, None] * np.array(colour)
+    return np.minimum((DARKEST + (1 - DARKEST) * np.abs(across @ LIGHT))[:, None] * np.array(colour), 1.0)
 
 
 def polygon(ax: Any, rim: np.ndarray, colour: str, alpha: float) -> None:
@@ -138,7 +157,14 @@ def _seen(view: tuple[float, float]) -> np.ndarray:
 def furnish(ax: Axes3D, box: Box, labels: tuple[str, ...], view: tuple[float, float] = VIEW) -> None:
     """Limits, labels, ticks and the point of view."""
     small = style.share()
-    power = math.floor(math.log10(box.farthest))
+    lengths = np.array(box.half)
+    sides = np.maximum(lengths / lengths.max(), FLATTEST)
+    # letters have a least size, their number has none
+    roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)
+    parts = sides / sides.max() * _seen(view)
+    ticks = [box.ticks(n, 3 if roomy * part > SEEN else 2) for n, part in enumerate(parts)]
+    values, labels = zip(*map(shifted, ticks, labels))
+    power = math.floor(math.log10(max(abs(v) for row in values for v in row)))
     power = power if not -3 < power < 5 else 0
     if power:
         labels = tuple(text.replace("(", rf"($10^{{{power}}}$ ") for text in labels)
@@ -157,14 +183,9 @@ def furnish(ax: Axes3D, box: Box, labels: tuple[str, ...], view: tuple[float, fl
             axis.set_rotate_label(False)
             axis.label.set_rotation(90)
     ax.tick_params(labelsize=8 * small, pad=3.5 * small)
-    # letters have a least size, their number has none
-    roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)
-    lengths = np.array(box.half)
-    sides = np.maximum(lengths / lengths.max(), FLATTEST)
-    for n, (axis, part) in enumerate(zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view))):
-        ticks = box.ticks(n, 3 if roomy * part > SEEN else 2)
-        shown = numbers([v / 10.0**power for v in ticks])
-        axis.set_ticks(ticks, labels=shown)
+    for axis, places, shown_values in zip((ax.xaxis, ax.yaxis, ax.zaxis), ticks, values):
+        shown = numbers([v / 10.0**power for v in shown_values])
+        axis.set_ticks(places, labels=shown)
         if (longer := max(map(len, shown)) - USUAL) > 0:
             axis.set_tick_params(pad=(3.5 + 2.5 * longer) * small)
             axis.labelpad += 4 * longer
@@ -299,7 +320,7 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     x = subject(case, state, span)
     subjects.check("space", x)
     scale = measures(x, units)
-    result = space_of(x, scale.names, scale.rate, shape=FACETS)
+    result = space_of(x, scale.names, scale.rate, shape=FACETS, clock=scale.time)
     with canvas.on(ax, size, space=True) as target:
         draw(target, result)
         return canvas.explained(target, rows(result) if legend else [], ax is None,
@@ -308,22 +329,25 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
 
 
 def space_of(item: Subject, names: Iterable[str], rate: tuple[str, float], resolved: Equilibria | None = None,
-             shape: tuple[int, int] = SHAPE, most: float = WHOLE, reaching: bool = False) -> Space:
+             shape: tuple[int, int] = SHAPE, most: float = WHOLE, reaching: bool = False,
+             clock: Clock | None = None) -> Space:
     """What is drawn of a subject. names, rate: as of `space`; resolved: its equilibria, where these are
-    worked out already; shape: of the branches; most, reaching: as of `box_of`."""
+    worked out already; shape: of the branches; most, reaching: as of `box_of`; clock: the unit of times so
+    long, None for that of the subject."""
     moved = item.motion if item.state is not None else None
     if resolved is None:
         try:
             resolved = equilibria(item.scene)
         except StabilabError:
             resolved = None
-    line, part = ([], "") if moved is None else _path(item)
+    line, part, turns = (([], "", None) if moved is None else _path(item, clock or measures(item).time))
     marks = marks_of(item.state, moved, resolved)
     limit = limit_of(item.case, item.assumed)
     nearby = [*nearest(resolved, line), *beside_limit(limit, line)] if line else []
     box = box_of(line, marks + nearby, branches_of(item.twin)[0], most, reaching)
     surface, text, _ = branches_of(item.twin, box, shape)
-    result = drawn_in(names, rate, box, surface, line, marks, curves_of(resolved, box), text, limit=limit)
+    result = drawn_in(names, rate, box, surface, line, marks, curves_of(resolved, box), text, limit=limit,
+                      long=turns)
     return replace(result, part=part)
 
 
@@ -334,15 +358,31 @@ def draw(ax: Axes3D, result: Space) -> None:
     facets(ax, [(clipped(box, per * grid_triangles(points)), colour) for colour, points in grids])
     for text, places in result.curves:
         line(ax, inside(box, per * np.array(places)), look(text), zorder=6)
-    path = inside(box, per * np.array(result.path)) if result.path else np.empty((0, 3))
+    gap = np.full((1, 3), np.nan)
+    lines = [part for points in result.lines for part in (inside(box, per * np.array(points)), gap)]
+    path = np.concatenate(lines[:-1]) if lines else np.empty((0, 3))
+    for colour in dict.fromkeys(colour for _, colour, _ in result.veils):
+        parts = [grid_triangles(np.reshape(x.points, (x.rows, x.columns, 3)))
+                 for _, of, x in result.veils if of == colour]
+        veil(ax, clipped(box, per * np.concatenate(parts)), colour)
     depth(ax, box, path, [per * np.array(at) for _, at in result.marks], result.view)
-    slim = SLIM if any(turning(rate) > CLOSE for rate in np.array(result.path).T) else {}
+    slim = SLIM if not result.times and often(result.path) > CLOSE / 2 else {}
     line(ax, path, style.MEANING["this motion"] | slim, zorder=8)
+    for at, text in result.times:
+        _time_beside(ax, per * np.array(at), text, box, result.view)
     for at, step in result.arrows:
         line(ax, per * _head(np.array(at), np.array(step), result), style.MEANING["this motion"], zorder=8)
     for text, at in reversed(result.marks):  # the start above all
         line(ax, per * np.array([at]), marker(text), zorder=9)
     furnish(ax, box, result.names, result.view)
+
+
+def _time_beside(ax: Axes3D, at: np.ndarray, text: str, box: Box, view: tuple[float, float]) -> None:
+    """A time at a place, on the side of it that is away from the middle of the picture."""
+    from matplotlib.patheffects import withStroke
+    aside = across(box.share(at.tolist()), view)[0]
+    ax.text(*at, f" {text} ", ha="left" if aside >= 0 else "right", va="center", fontsize=8.5 * style.share(),
+            zorder=10, path_effects=[withStroke(linewidth=2.5, foreground="white")])
 
 
 def _head(at: np.ndarray, step: np.ndarray, result: Space) -> np.ndarray:
@@ -362,8 +402,10 @@ def marker(text: str) -> Look:
 def rows(result: Space) -> list[tuple[str, Look]]:
     """Rows of a legend: words and look."""
     surfaces = {branch.name for _, branch in result.branches}
+    veils = {name for name, *_ in result.veils}
     curves = {text for text, _ in result.curves} | {"this motion"}
     return [(key, {"facecolor": pale(colour)} if key in surfaces
+             else {"facecolor": colour, "alpha": SHEER[colour]} if key in veils
              else look(key) if key in curves else marker(key))
             for key, colour in result.legend.items()]
 
@@ -378,14 +420,18 @@ def away(item: Subject, result: Space, scale: Measures) -> str:
             f"outside of this picture".replace("  ", " "))
 
 
-def _path(item: Subject) -> tuple[list[Any], str]:
-    """The motion: one period, or the span as far as a picture can show it; and what is to be said where that
-    is a part of it."""
+def _path(item: Subject, clock: Clock) -> tuple[list[Any], str, Long | None]:
+    """The motion: one period, or the span as far as a picture can show it; what is to be said where that is a
+    part of it; what is drawn of it where it turns often."""
     period = item.motion.period
     low, high = item.seen
     t, omega = path(item, low, low + period if period else high)
-    omega = omega[:len(near_part(t.tolist(), omega.tolist(), item.motion,
-                                   item.assumed and item.assumed.time))]
+    reached = item.assumed and item.assumed.time
+    near = len(near_part(t.tolist(), omega.tolist(), item.motion, reached))
+    t, omega = t[:near], omega[:near]
+    resolved = long(item, t, omega, clock)
+    if resolved is not None and resolved[0].skins:
+        return resolved[1].tolist(), "", resolved[0]
     part = ""
     if (end := min(map(_end_of_the_first_turns, omega.T))) < len(omega):
         unit, per = measures(item).time(abs(high - low))
@@ -397,7 +443,7 @@ def _path(item: Subject) -> tuple[list[Any], str]:
     nearby = FINE  # of what an axis shows
     while len(line := thinned(omega / size, nearby)) > MOST:
         nearby *= 2
-    return (line * size).tolist(), part
+    return (line * size).tolist(), part, None
 
 
 def _end_of_the_first_turns(rate: np.ndarray) -> int:

@@ -25,7 +25,7 @@ from ...unreduced.periodic import (
 )
 from .. import style
 from ..units import SHORT, number, with_unit
-from . import canvas
+from . import canvas, rings
 from . import subject as subjects
 from .in_space import levels as level_lines
 from .subject import Measures, Subject, measures, subject
@@ -195,14 +195,19 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     scatters. passages: how many of this motion (None: 300, or about an elliptic periodic motion as many as go
     round it); of one that spins up, those before that is certain. neighbours: how many motions beside it
     (None: six), from the middle to twice as far. Where it stays in an island about an elliptic periodic
-    motion, that is marked. Raises InputError for a body with a liquid, in a medium or in a field, a motion at
-    rest, and one that spins up before it has passed any plane often enough.
+    motion, that is marked. A motion that repeats, as all beside it do, passes at one place: drawn are so many
+    closed orbits (None: ten) from the middle of its island out to the separatrix, as rings, seen along the
+    axis about which they go (or over the turn about the axis of the torque, where some would lie on others).
+    Raises InputError for a body with a liquid, in a medium or in a field, a motion at rest, and one that
+    spins up before it has passed any plane often enough.
     """
     item, rest = _motions(case, states)
     subjects.check("section", item)
+    _check("passages", PASSAGES if passages is None else passages, 1, MOST)
+    if not len(rest) and repeats(item):
+        return _rings(item, ax, units, size, legend, neighbours)
     fan = next((n for n in (neighbours, item.neighbours) if n is not None), USUAL)
     _check("neighbours", fan, 0, FAN)
-    _check("passages", PASSAGES if passages is None else passages, 1, MOST)
     scale, until = measures(item, units), subjects.certain_from(item)
     orbit, plane = plane_of(item, until)
     count, followed = passages or _round(PASSAGES, orbit), _round(NEIGHBOUR_PASSAGES, orbit)
@@ -221,6 +226,58 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
                                 notes=canvas.notes(item, scale, answered=False))
 
 
+# of a motion that repeats: closed orbits
+RING, RIM = style.MEANING["bounded"] | {"linewidth": 0.9}, style.MEANING["separatrix"]
+ONE_DOT = ("the motion is periodic and goes round no equilibrium: it passes any plane at one place, and a "
+           "section has nothing to show")
+
+
+def _rings(item: Subject, ax: Any, units: str | None, size: tuple[float, float] | None, legend: bool,
+           neighbours: int | None) -> Axes:
+    """Of a motion that repeats, which passes a plane at one place, closed orbits from the middle of its
+    island out to the separatrix."""
+    asked = next((n for n in (neighbours, item.neighbours) if n is not None), rings.RINGS)
+    _check("neighbours", asked, 0, FAN)
+    scale = measures(item, units)
+    result = rings.island(item, asked)
+    if result is None:
+        raise InputError(f"plot section: {ONE_DOT}; plot phase, sphere or time show it")
+    per, labels = _coordinates(item, result, scale)
+    with canvas.on(ax, size or canvas.SQUARE) as target:
+        lines = [(line, RING, 2) for line in result.rings] + [(line, RIM, 3) for line in result.inner]
+        lines += [] if result.rim is None else [(result.rim, RIM, 3)]
+        for line, look, level in [*lines, (result.own, style.MEANING["this motion"], 4)]:
+            target.plot(*(line * per).T, zorder=level, **look)
+        for place in result.middles:
+            target.plot(*(place[:, None] * per[:, None]), zorder=5, **MIDDLE)
+        target.plot(*(result.own[:1] * per).T, zorder=6, **style.MARKER["start"])
+        target.set_xlabel(labels[0])
+        target.set_ylabel(labels[1])
+        rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
+                *([(f"closed orbits {result.kept}", RING)] if result.rings else []),
+                *([("separatrix", RIM)] if result.rim is not None or result.inner else []),
+                ("centre (stable)", MIDDLE)]
+        return canvas.explained(target, rows if legend else [], ax is None, item.heading,
+                                f"periodic, {_time(float(item.motion.period), scale)}; all that stay bounded "
+                                f"here are", notes=canvas.notes(item, scale, answered=False))
+
+
+def _coordinates(item: Subject, result: rings.Island,
+                 scale: Measures) -> tuple[np.ndarray, tuple[str, str]]:
+    """(how many of the units of a picture make one of its coordinates (2,), their labels)."""
+    per = scale.rate[1]
+    if result.axis is not None:
+        first, second = (with_unit(scale.names[n], scale.rate[0]) for n in range(3) if n != result.axis)
+        return np.array([per, per]), (first, second)
+    n = result.about
+    if result.kept == rings.SPHERE:
+        angle = f"angle of H from the centre, {{}} {item.axes.short(n + 1)}"
+        return np.full(2, scale.angle[1]), (with_unit(angle.format("across"), scale.angle[0]),
+                                            with_unit(angle.format("towards"), scale.angle[0]))
+    turn = with_unit(rf"turn $\alpha_{n + 1}$ about {item.axes.short(n + 1)} from the start", scale.angle[0])
+    return np.array([scale.angle[1], per]), (turn, with_unit(scale.names[n], scale.rate[0]))
+
+
 def _motions(case: Any, states: Any) -> tuple[Subject, np.ndarray]:
     """The subject of the first motion, and the states (n, 3) of the others."""
     if states is None or isinstance(states, dict):
@@ -234,6 +291,11 @@ def _motions(case: Any, states: Any) -> tuple[Subject, np.ndarray]:
 def _check(name: str, value: Any, smallest: int, upper: int) -> None:
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not smallest <= value <= upper:
         raise InputError(f"{name}: expected a whole number from {smallest} to {upper}, got {value!r:.40}")
+
+
+def repeats(item: Subject) -> bool:
+    """Whether a motion is periodic, and every other one beside it."""
+    return item.motion.period is not None and _all_repeat(item)
 
 
 def _all_repeat(item: Subject) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ from ...physics.states import quaternion, start_of
 from .. import endings, style
 from ..assumed import Assumed
 from ..report import html
+from ..turns.moment import moment
 from ..units import SHORT, Unit, Units
 from . import canvas, in_space
 from . import subject as subjects
@@ -33,8 +35,11 @@ if TYPE_CHECKING:
 FRAMES = 150
 # a body turns by no more from one picture to the next: the eye would see it turn backwards
 STEP = np.radians(15)
-ROUNDED = 1.02  # of a step's width
-TRIED = np.geomspace(1e-9, 1.0, 3000)  # shares of the span, of which one ends the film
+TRIED = np.linspace(0.0, 1.0, 3001)[1:]  # shares of the span, at which the rate of turning is looked at
+SLOW = {2: 0.35, 3: 0.24}  # of all pictures, those of each of the stretches that go slowly, of so many
+FEWEST = 12  # pictures of a film that goes slow and fast
+WIDE = 2.0  # steps: a film of which none is wider goes evenly
+AROUND, CHOICES = 4.0, 120  # turns from which a picture is chosen where a film goes fast, and of how many
 THINNEST = 0.06  # of the longest edge
 
 
@@ -44,7 +49,9 @@ class Turn:
     box, the longest 1; whole: whether the span that was asked for is shown to its end; asked: its length, s;
     momentum: (n, 3) of body and wheels in space, N m s; torque: (3,) the constant one, N m, body; wheel: (3,)
     momentum of the wheels, N m s, body; share: (n,) of the limit of the case, or, assumed, of the one
-    that is taken where it states none; None without either."""
+    that is taken where it states none; None without either. even: (first, last) picture of the stretches that
+    go on evenly, between which it goes fast; moment: (time, words) of what matters in its time, None where
+    nothing is known to."""
 
     t: np.ndarray
     rotations: np.ndarray
@@ -56,6 +63,8 @@ class Turn:
     torque: np.ndarray
     wheel: np.ndarray
     share: np.ndarray | None
+    even: tuple[tuple[int, int], ...] = ()
+    moment: tuple[float, str] | None = None
     assumed: bool = False
 
     @property
@@ -76,19 +85,44 @@ class Turn:
         return "; ".join(f"{letter}: {text[letter]}" for letter, *_ in self.arrows)
 
     def part(self, units: Units) -> str:
-        """What is said of a film that ends before its span."""
+        """How a film goes that is not even, or ends before its span."""
+        if len(self.even) > 1:
+            middle = (f", at {units.time(self.moment[0], SHORT)} ({self.moment[1]})"
+                      if self.moment is not None and len(self.even) > 2 else "")
+            return f"Slow at the start{middle} and at the end, fast between."
         return ("" if self.whole
                 else f"The first {units.time(float(abs(self.t[-1] - self.t[0])), SHORT)} of "
                      f"{units.time(self.asked, SHORT)} are shown.")
 
+    def noted(self, units: Units) -> str:
+        """The moment that matters, and when it is; empty where there is none."""
+        return "" if self.moment is None else f"{self.moment[1]}: {units.time(self.moment[0], SHORT)}"
+
+    def notes(self, units: Units) -> list[tuple[int, int, str]]:
+        """(first, last picture, what is said of them): of one even film from the moment that matters on."""
+        if len(self.even) == 1 and self.moment is not None:
+            return [(int(np.searchsorted(self.t, self.moment[0])), len(self.t) - 1, self.noted(units))]
+        inside = [(a, b) for a, b in self.even if self.moment is not None
+                  and self.t[a] <= self.moment[0] <= self.t[b]]
+        fast = [(b + 1, c - 1, "fast") for (_, b), (c, _) in pairwise(self.even)]
+        return [*((a, b, self.noted(units)) for a, b in inside), *fast]
+
+    def since(self, frame: int) -> int:
+        """The first picture of the stretch that a picture belongs to."""
+        return next((a for a, b in self.even if a <= frame <= b), frame)
+
 
 def turn(item: Subject, frames: int = FRAMES, limit: Assumed | None = None) -> Turn:
-    """The motion in so many pictures, from the start of its span on: as far as it goes, or as the pictures
-    reach at `STEP`. limit: taken where the case states none."""
+    """The motion in so many pictures over its span: evenly where these are enough at `STEP`, else slow at its
+    start, at the moment that matters and at its end, and fast between; as far as a run goes. limit: taken
+    where the case states none."""
     if not 2 <= frames <= 5000:
         raise InputError(f"frames: expected 2 to 5000, got {frames!r:.40}")
     low, high = item.seen
-    (t, rotations, omega), full = _reached(item, low, high, frames)
+    matters = moment(item.motion, limit and limit.time)
+    matters = matters if matters is not None and low < matters[0] < high else None
+    (t, rotations, omega), even = _paced(item, low, high, frames, matters and matters[0])
+    full = abs(t[-1] - high) <= 1e-9 * abs(high - low)
     scene: Any = item.scene  # physical: `which` refuses the others
     vector = lambda name: (np.array([float(v) for v in scene.vector(name)])
                            if scene.effect(name) is not None else np.zeros(3))
@@ -96,7 +130,7 @@ def turn(item: Subject, frames: int = FRAMES, limit: Assumed | None = None) -> T
     momentum = np.einsum("nij,nj->ni", rotations, omega * np.array(scene.body.inertia) + wheel)
     edges = np.maximum(box_sides(scene.body.inertia), THINNEST)
     return Turn(t, rotations, omega, edges, full, abs(high - low), momentum, vector("constant_torque"),
-                wheel, _share(item, omega, limit), limit is not None)
+                wheel, _share(item, omega, limit), even, matters, limit is not None)
 
 
 def _share(item: Subject, omega: np.ndarray, limit: Assumed | None):
@@ -112,15 +146,71 @@ def _share(item: Subject, omega: np.ndarray, limit: Assumed | None):
     return np.max([np.abs(omega @ axis) / largest for axis, largest in parts], axis=0)
 
 
-def _reached(item: Subject, low: float, high: float, frames: int):
-    """(the motion at the times of the pictures, whether they reach the end of the span). The greatest rate up
-    to an end grows with it, so the ends at which no step is too wide are those up to one."""
-    length, direction = abs(high - low), float(np.sign(high - low))
-    t, _, omega = _at(item, low + direction * length * np.concatenate([[0.0], TRIED]))
-    fastest = np.maximum.accumulate(np.linalg.norm(omega, axis=1))
-    fits = fastest * np.abs(t - low) <= ROUNDED * STEP * (frames - 1)
-    end = float(t[fits][-1])
-    return _at(item, np.linspace(low, end, frames)), bool(fits.all() and len(t) > len(TRIED))
+def _paced(item: Subject, low: float, high: float, frames: int, middle: float | None):
+    """(the motion at the times of the pictures, the stretches of these that go on evenly: one of all where no
+    step is too wide). Where it goes fast each picture is the one, of those within some turns, that the body
+    has turned least to."""
+    direction = float(np.sign(high - low))
+    t, _, omega = _at(item, low + abs(high - low) * direction * np.concatenate([[0.0], TRIED]))
+    rate = np.linalg.norm(omega, axis=1)
+    high = float(t[-1])
+    if rate.max() * abs(high - low) <= WIDE * STEP * (frames - 1):
+        return _at(item, np.linspace(low, high, frames)), ((0, frames - 1),)
+    if direction < 0 or frames < FEWEST:  # its first part
+        fits = np.maximum.accumulate(rate) * np.abs(t - low) <= STEP * (frames - 1)
+        return _at(item, np.linspace(low, max(t[fits][-1], t[1], key=abs), frames)), ((0, frames - 1),)
+    step = lambda at: STEP / max(float(np.interp(at, t, rate)), 1e-3 * float(rate.max()))
+    inside = middle is not None and low < middle < high
+    slow = _slow(low, high, middle if inside else None, frames, t, rate)
+    left = frames - sum(map(len, slow))
+    counts = [left // (len(slow) - 1) + (n < left % (len(slow) - 1)) for n in range(len(slow) - 1)]
+    tried = []
+    for (before, after), count in zip(pairwise(slow), counts):
+        share = np.arange(1, count + 1) / (count + 1)
+        # faster in its middle
+        targets = before[-1] + (after[0] - before[-1]) * share**2 * (3 - 2 * share)
+        wide = np.minimum(AROUND * 2 * np.pi / STEP * np.array([step(at) for at in targets]),
+                          0.9 * np.diff(np.concatenate([before[-1:], targets])))
+        tried.append(targets[:, None] - wide[:, None] * np.linspace(0, 1, CHOICES)[None, :])
+    reached, rotations, rates = _at(item, np.unique(np.concatenate([*slow, *map(np.ravel, tried)])))
+    index = lambda times: np.minimum(np.searchsorted(reached, times), len(reached) - 1)
+    chosen: list[int] = []
+    even = []
+    for n, row in enumerate(slow):
+        even.append((len(chosen), len(chosen) + len(row) - 1))
+        chosen += index(row).tolist()
+        for choices in tried[n] if n < len(tried) else ():
+            places = index(choices)
+            alike = np.einsum("nij,ij->n", rotations[places], rotations[chosen[-1]])
+            chosen.append(int(places[alike.argmax()]))
+    return (reached[chosen], rotations[chosen], rates[chosen]), tuple(even)
+
+
+def _slow(low: float, high: float, middle: float | None, frames: int, t: np.ndarray,
+          rate: np.ndarray) -> list[np.ndarray]:
+    """The times of the pictures where a film goes slowly: at the start, about a moment, at the end."""
+    times = [low, high] if middle is None else [low, middle, high]
+    result: list[np.ndarray] = []
+    for n, at in enumerate(times):
+        before = n / (len(times) - 1)
+        count, now = max(2, round(SLOW[len(times)] * frames)), float(np.interp(at, t, rate))
+        step = min(STEP / max(now, 1e-3 * float(rate.max())), (high - low) / (len(times) * count))
+        while step * _fastest(t, rate, at - before * count * step, at + (1 - before) * count * step) > STEP:
+            step /= 1.1
+        first = at - before * (count - 1) * step
+        if result and first <= result[-1][-1]:
+            first = result[-1][-1] + step
+        result.append(np.minimum(first + step * np.arange(count), high))
+    count = len(result[-1])
+    first = max(result[-1][0], result[-2][-1] + (high - result[-2][-1]) / (2 * count))
+    result[-1] = np.linspace(first, high, count)
+    return result
+
+
+def _fastest(t: np.ndarray, rate: np.ndarray, low: float, high: float) -> float:
+    """The largest rate between two times."""
+    inside = rate[(t > low) & (t < high)]
+    return float(max(inside.max(initial=0.0), *np.interp((low, high), t, rate)))
 
 
 def _at(item: Subject, times: np.ndarray):
@@ -144,9 +234,10 @@ def _at(item: Subject, times: np.ndarray):
 SMOOTH = 600  # frames of a page, which are numbers and no pictures
 
 
-def drawn(item: Subject, result: Turn, time: Unit, rate: Unit,
+def drawn(item: Subject, result: Turn, time: Unit, rate: Unit, system: Units,
           row: Callable[[np.ndarray], Any]) -> dict[str, Any]:
-    """What templates/turning.js draws. time, rate: units; row: what a page has for an array of any shape."""
+    """What templates/turning.js draws. time, rate: units; system: in which its words are; row: what a page
+    has for an array of any shape."""
     unit, per = time
     return {"t": row(result.t * per), "unit": unit, "rate": rate[0],
             "size": row(np.linalg.norm(result.omega, axis=1) * rate[1]), "rotations": row(result.rotations),
@@ -154,18 +245,19 @@ def drawn(item: Subject, result: Turn, time: Unit, rate: Unit,
             "faces": FACES, "colours": COLOURS, "names": [item.axes.label(n) for n in (1, 2, 3)],
             "tip": int(np.argmax(np.abs(result.omega[0]))), "real": float(abs(result.t[-1] - result.t[0])),
             "arrows": [[letter, colour, row(rows)] for letter, colour, rows in result.arrows],
-            "share": None if result.share is None else row(result.share), "assumed": result.assumed}
+            "share": None if result.share is None else row(result.share), "assumed": result.assumed,
+            "even": result.even, "notes": result.notes(system)}
 
 
 def page(item: Subject, result: Turn, scale: Measures, path: Path) -> Path:
     """Write the page."""
     def row(values: np.ndarray):
         return [float(f"{v:.6g}") + 0.0 for v in values.ravel()]
-    data = drawn(item, result, scale.time(float(np.abs(result.t).max())), scale.rate, row)
+    data = drawn(item, result, scale.time(float(np.abs(result.t).max())), scale.rate, scale.system, row)
     # nothing of it ends the script
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     return html.write(path, "attitude.html", title=printable(item.heading or "Attitude"), data=text,
-                      part=result.part(scale.system), arrows=result.words)
+                      part=result.part(scale.system), arrows=result.words, said=canvas.answer(item, scale))
 
 
 # --- The body's box as it turns, as an animation of Matplotlib
@@ -191,7 +283,8 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
     start. Arrows: angular momentum, constant torque, momentum of the wheels; in words, how much of the limit
     of the case the rates have reached. The start has the attitude of the case, else one that holds its
     vertical upright, else body and space are aligned. Where the span would need more pictures than `frames`
-    at 15 degrees each, its first part is shown. Raises InputError for scaled variables.
+    at 15 degrees each, it goes slow at its start, at its limit (or where it turns over) and at its end, and
+    fast between. Raises InputError for scaled variables.
     """
     from matplotlib.animation import FuncAnimation
     item = subject(case, state, span)
@@ -246,8 +339,8 @@ def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
     halo = [withStroke(linewidth=3, foreground="white")]  # a name is to be read on a face of its colour
     names = [ax.text(0, 0, 0, item.axes.label(n), color=colour, fontsize=11, weight="bold", path_effects=halo)
              for n, colour in enumerate(COLOURS, 1)]
-    now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
-    canvas.title(ax, item.heading, most=canvas.TITLE_LINES)
+    now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center", va="center")
+    canvas.title(ax, item.heading, canvas.answer(item, scale), most=canvas.TITLE_LINES)
     ax.text2D(0.5, -0.02, "\n".join(filter(None, (result.words, result.part(scale.system)))),
               transform=ax.transAxes, ha="center", va="top", fontsize="small")
     pointers: list[Any] = []
@@ -264,6 +357,7 @@ def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
     ax.view_init(*in_space.VIEW)
     unit, per = scale.time(float(np.abs(result.t).max()))
     rates = np.linalg.norm(result.omega, axis=1) * scale.rate[1]
+    notes = result.notes(scale.system)
 
     limit = "an assumed limit" if result.assumed else "the limit"
 
@@ -277,7 +371,7 @@ def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
             visited = result.rotations[frame][:, n] @ eye > result.edges[n]  # the face that it leaves by
             line.set_zorder(BEFORE if visited else BEHIND)
             name.set_zorder(BEFORE if visited else BEHIND)
-        gone = tips[:frame + 1]
+        gone = tips[result.since(frame):frame + 1]
         for route, shown in zip(ways, (gone @ eye <= 0, gone @ eye > 0)):
             route.set_data_3d(*np.where(_with_ends(shown)[:, None], gone, np.nan).T)
         for artist in pointers:
@@ -287,8 +381,10 @@ def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
         pointers.extend(ax.text(*(1.12 * rows[frame]), letter, color=colour, weight="bold", path_effects=halo,
                                 zorder=BEFORE + 1) for letter, colour, rows in result.arrows)
         fraction = None if result.share is None else result.share[frame]
+        note = "; ".join(text for first, last, text in notes if first <= frame <= last)
         now.set_text(f"{result.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}"
-                     + ("" if fraction is None else f", {fraction:.0%} of {limit}".replace("%", " %")))
+                     + ("" if fraction is None else f", {fraction:.0%} of {limit}".replace("%", " %"))
+                     + f"\n{note}")
         now.set_color(style.BLACK if fraction is None or fraction < 1 else style.VERMILION)
         return [box, *axes, *names, *ways, now]
 

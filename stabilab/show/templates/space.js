@@ -27,7 +27,7 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
   let parts = [], buffers = [], shapes = [], first = null, now = {turn: 0, lift: 0, near};
   const filled = (target, values) => { const buffer = gl.createBuffer(); buffers.push(buffer); gl.bindBuffer(target, buffer); gl.bufferData(target, values, gl.STATIC_DRAW); };
 
-  function add(points, triangles, colour, flatly, wall = null) {  // wall: [axis, side], drawn where that is behind
+  function add(points, triangles, colour, flatly, wall = null, sheer = null) {  // wall: [axis, side], drawn where that is behind; sheer: what a veil hides
     const normals = new Float32Array(points.length);
     for (let i = 0; i < triangles.length; i += 3) {
       const [a, b, c] = [0, 1, 2].map(k => 3 * triangles[i + k]), u = [0, 1, 2].map(k => points[b + k] - points[a + k]), v = [0, 1, 2].map(k => points[c + k] - points[a + k]);
@@ -41,16 +41,16 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
       if (place >= 0) { gl.enableVertexAttribArray(place); gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0); }
     }
     filled(gl.ELEMENT_ARRAY_BUFFER, new Uint32Array(triangles));
-    parts.push({vertices, count: triangles.length, colour: rgb(colour), flatly, wall});
+    parts.push({vertices, count: triangles.length, colour: rgb(colour), flatly, wall, sheer});
   }
 
-  function branch({at, rows, columns, colour}) {
+  function branch({at, rows, columns, colour}, sheer = null) {
     const triangles = [];
     for (let r = 0; r + 1 < rows; r++) for (let c = 0; c + 1 < columns; c++) {
       const a = r * columns + c, b = a + columns;
       triangles.push(a, b, a + 1, a + 1, b, b + 1);
     }
-    add(places(at), triangles, colour, 0);
+    add(places(at), triangles, colour, 0, null, sheer);
   }
 
   function tube(points, radius, colour, wall = null, sides = 6) {
@@ -94,13 +94,15 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
     if (!first) { first = {turn: data.view[1] * Math.PI / 180, lift: data.view[0] * Math.PI / 180, near}; now = {...first}; }
     parts.forEach(part => gl.deleteVertexArray(part.vertices)); buffers.forEach(buffer => gl.deleteBuffer(buffer));
     parts = []; buffers = []; shapes = [];
-    data.branches.forEach(branch);
+    data.branches.forEach(one => branch(one));
+    data.veils.forEach(one => branch(one, one.name.includes("limit") ? 0.16 : 0.4));
     const wide = (kind, at) => kind !== "this motion" ? 0.011 : at.length > 6000 ? 0.006 : 0.013;  // thin of a motion that turns often
     data.curves.forEach(c => { const at = places(c.at); tube(at, wide(c.kind, at), c.colour); });
     data.points.forEach(p => { ball(p.at, 0.03, p.colour); tube([...p.at, ...p.at.slice(0, 2), -0.999], 0.003, "#7A7A7A"); });
     for (const motion of data.curves.filter(c => c.kind === "this motion")) {
-      shadows(places(motion.at)); data.arrows.forEach(([at, step]) => arrow(at, step, motion.colour));
+      shadows(places(motion.at));
     }
+    data.arrows.forEach(([at, step]) => arrow(at, step, data.curves.find(c => c.kind === "this motion").colour));
     edges.forEach(([a, b]) => tube([...corner[a], ...corner[b]], 0.0025, "#999999"));
     shapes = [...data.points.map(p => [p.kind, [p.at]]), ...[...data.curves, ...data.branches].map(c => [c.kind || c.name, c.at])];
     draw();
@@ -131,11 +133,15 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
     gl.viewport(0, 0, width, height); gl.clearColor(1, 1, 1, 1); gl.enable(gl.DEPTH_TEST); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniformMatrix4fv(where("view"), false, seen.matrix); gl.uniform3fv(where("eye"), seen.eye);
     gl.enable(gl.BLEND); gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
-    for (const part of [...parts.filter(one => one.flatly), ...parts.filter(one => !one.flatly)].filter(({wall}) => !wall || wall[1] * seen.eye[wall[0]] < 0)) {
+    for (const part of [...parts.filter(one => one.flatly), ...parts.filter(one => !one.flatly && !one.sheer), ...parts.filter(one => one.sheer).sort((a, b) => b.sheer - a.sheer)].filter(({wall}) => !wall || wall[1] * seen.eye[wall[0]] < 0)) {
       const clear = glass < 1 && !part.flatly;  // a surface: after all else, and hiding nothing behind it
-      gl.depthMask(!clear); gl.uniform1f(where("glass"), clear ? glass : 1);
+      gl.depthMask(!clear && !part.sheer); gl.uniform1f(where("glass"), part.sheer || (clear ? glass : 1));
       gl.uniform3fv(where("colour"), part.colour); gl.uniform1f(where("flatly"), part.flatly); gl.bindVertexArray(part.vertices);
-      gl.drawElements(gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0);
+      if (part.sheer) {  // its nearest layer alone
+        gl.depthMask(true); gl.colorMask(false, false, false, false); gl.drawElements(gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0);
+        gl.colorMask(true, true, true, true); gl.depthFunc(gl.LEQUAL);
+      }
+      gl.drawElements(gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0); gl.depthFunc(gl.LESS);
     }
     gl.depthMask(true);
     pen.drawImage(layer, 0, 0); words(seen, sharp);
@@ -144,6 +150,11 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
     const small = 13 * sharp, at = p => { const [x, y, , w] = seen.of(p); return [canvas.width * (0.5 + x / w / 2), canvas.height * (0.5 - y / w / 2)]; };
     pen.textAlign = "center"; pen.textBaseline = "middle";
     const middle = at([0, 0, 0]);
+    for (const [place, told] of data.times) {  // on the side of its turn that is away from the middle
+      const [x, y] = at(place), right = x >= middle[0], wide = (pen.font = `${small}px sans-serif`, pen.measureText(told).width);
+      const left = Math.min(Math.max(right ? x + 8 * sharp : x - 8 * sharp - wide, 2), canvas.width - wide - 2);
+      pen.lineWidth = 3 * sharp; pen.strokeStyle = "#fff"; pen.strokeText(told, left + wide / 2, y); pen.fillStyle = "#000"; pen.fillText(told, left + wide / 2, y);
+    }
     for (let k = 0; k < 3; k++) {  // along each axis the edge of the box that is seen outermost
       const others = [0, 1, 2].filter(j => j !== k), edges = [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([a, b]) => s => { const p = [0, 0, 0]; p[k] = s; p[others[0]] = a; p[others[1]] = b; return p; });
       const out = e => { const [x, y] = at(e(0)); return k === 2 ? -x : y + 0.25 * Math.abs(x - middle[0]); };
@@ -151,24 +162,26 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
       const ends = [at(edge(-1)), at(edge(1))], [ex, ey] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]], size = Math.hypot(ex, ey) || 1;
       const side = Math.sign(-ey * (mx - middle[0]) + ex * (my - middle[1])) || 1, away = [-side * ey / size, side * ex / size];  // across the edge, outwards
       const half = data.half[k], every = step(half, data.middle[k]), low = data.middle[k] - half, high = data.middle[k] + half;
-      const digits = Math.min(17, Math.max(6, 2 + Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high)) / every))));  // tell neighbours apart
+      const far = Math.max(Math.abs(low), Math.abs(high)) / every, ten = 10 ** Math.ceil(Math.log10(2 * rim * half));
+      const base = far < 5e3 ? 0 : Math.round(data.middle[k] / ten) * ten;  // neighbours that differ in their last digits stand as differences from it
+      const name = base ? data.names[k].replace(/( \(|$)/, ` ${base > 0 ? "\u2212" : "+"} ${+Math.abs(base).toPrecision(12)}$1`) : data.names[k];
       const inside = (x, room) => Math.min(Math.max(x, room), canvas.width - room);
       pen.fillStyle = "#333"; pen.font = `${small}px sans-serif`; let widest = 0;
       for (let v = Math.ceil(low / every) * every; v <= high; v += every) {
         if (Math.abs(v - data.middle[k]) > rim * half) continue;
         const [x, y] = at(edge((v - data.middle[k]) / half));
-        const told = String(+v.toPrecision(digits) || 0).replace("-", "\u2212"), wide = pen.measureText(told).width;
+        const told = String(+(Math.round((v - base) / every) * every).toPrecision(6) || 0).replace("-", "\u2212"), wide = pen.measureText(told).width;
         widest = Math.max(widest, wide);
         pen.fillText(told, inside(x + (8 * sharp + wide / 2) * away[0], wide / 2 + 2), y + 16 * sharp * away[1]);
       }
       pen.fillStyle = "#000"; pen.font = `600 ${small * 1.1}px sans-serif`;
-      const room = pen.measureText(data.names[k]).width / 2 + 4;
+      const room = pen.measureText(name).width / 2 + 4;
       let [tx, ty] = [mx + (18 * sharp + widest + room) * away[0], my + 44 * sharp * away[1]];
       if (tx < room || tx > canvas.width - room) {  // no room beside the numbers: beyond the upper end of the edge
         const end = ends[0][1] < ends[1][1] ? ends[0] : ends[1];
         [tx, ty] = [end[0] + room * 0.5 * away[0], end[1] - 16 * sharp];
       }
-      pen.fillText(data.names[k], inside(tx, room), Math.min(Math.max(ty, small), canvas.height - small));
+      pen.fillText(name, inside(tx, room), Math.min(Math.max(ty, small), canvas.height - small));
     }
   }
   const held = new Map(); let apart = 0;

@@ -8,7 +8,8 @@ function turningView() {
   $("speed").append(...speeds);
 
   function show(given) {
-    if (!data) { play(!matchMedia("(prefers-reduced-motion: reduce)").matches); speeds[given.real > 4 && given.real < 60 ? 0 : 2].selected = true; }
+    if (!data) { play(!matchMedia("(prefers-reduced-motion: reduce)").matches); speeds[given.real > 4 && given.real < 60 && given.even.length < 2 ? 0 : given.even.length < 2 ? 2 : 3].selected = true; }
+    speeds[0].hidden = given.even.length > 1;  // a film that goes slow and fast
     at = data ? at / (last() || 1) * (given.t.length - 1) : 0; data = given; $("at").max = last(); draw();
   }
   function play(on) { playing = on; $("play").textContent = on ? "Pause" : "Play"; }
@@ -29,7 +30,7 @@ function turningView() {
       pen.strokeStyle = "#FFFFFF"; pen.lineWidth = 4; pen.lineJoin = "round"; pen.strokeText(text, p[0] - 4, p[1] + 5);  // to be read on a face of its colour
       pen.fillText(text, p[0] - 4, p[1] + 5); };
     [[1.7, 0, 0], [0, 1.7, 0], [0, 0, 1.7]].forEach((v, i) => { line([[0, 0, 0], seen(v)], "#BBBBBB", 1); word("XYZ"[i], seen(v.map(x => x * 1.07)), "#7A7A7A"); });
-    const tip = []; for (let i = 0; i <= n; i++) { const q = attitude(i); tip.push(seen([q[data.tip], q[3 + data.tip], q[6 + data.tip]].map(x => 1.5 * x))); }
+    const tip = [], from = (data.even.find(([a, b]) => a <= n && n <= b) || [n])[0]; for (let i = from; i <= n; i++) { const q = attitude(i); tip.push(seen([q[data.tip], q[3 + data.tip], q[6 + data.tip]].map(x => 1.5 * x))); }
     line(tip, "#7A7A7A", 1);
     const tips = [0, 1, 2].map(i => seen([r[i], r[3 + i], r[6 + i]].map(x => 1.5 * x)));
     const axis = i => { line([tips[i].map(x => x * data.edges[i] / 1.5), tips[i]], data.colours[i], 3); word(data.names[i], tips[i].map(x => x * 1.1), data.colours[i]); };
@@ -52,10 +53,11 @@ function turningView() {
     $("limited").textContent = data.assumed ? "assumed limit" : "limit";
     if (data.share) { $("gauge").value = data.share[n]; $("share").textContent = `${Math.round(100 * data.share[n])} %`; }
     $("at").value = n; $("now").textContent = `${rounded(data.t[n])} ${data.unit}, |ω| = ${rounded(data.size[n])} ${data.rate}`;
+    $("note-now").textContent = data.notes.filter(([a, b]) => a <= n && n <= b).map(([, , told]) => told).join("; ");
     if (view.moved) view.moved(data.t[n]);
   }
   function step(now) {
-    if (playing && data && before !== null) { at += last() * (now - before) / 1000 / (Number($("speed").value) || data.real || 1); if (at > last()) at = 0; draw(); }
+    if (playing && data && before !== null) { at += last() * (now - before) / 1000 / (Number($("speed").value) || (data.even.length > 1 ? 16 : data.real) || 1); if (at > last()) at = 0; draw(); }
     before = now; requestAnimationFrame(step);
   }
   const look = (across, upward) => { round += across; up = Math.max(-1.5, Math.min(1.5, up + upward)); draw(); };
