@@ -23,7 +23,7 @@ from ..orbit.result import OUTCOMES, Fate
 from ..packages import demand
 from ..physics.equations import derive
 from ..physics.scene import PARTS, Scene, torque_axis
-from ..show import manifest, style
+from ..show import manifest, narrow, style
 from ..show import precision as precision_page
 from ..show.report import html, own
 from ..show.report.html import picture
@@ -126,10 +126,11 @@ def section(name: str, folder: Path) -> dict:
 def drawn(row, folder: Path) -> dict:
     """What a page says of a figure, whose pictures are drawn into `folder`/figures; rows, claims: of the
     audit, see `index.of_figure`; cases: of `index.cases_of`."""
-    path, *more = catalogue.write([row.number], folder / FOLDER, paper_name=row.paper or None)
-    return picture(path, FOLDER, id=f"{row.paper or 'figure'}-{row.number}", number=row.number,
-                   title=row.title, caption=row.caption, tolerance=row.tolerance, differences=words(row),
-                   command=row.command, rows=(), claims=(), cases=(),
+    path, *more = catalogue.write([row.number], folder / FOLDER, paper_name=row.paper or None,
+                                     telephone=True)
+    return picture(path, narrow.beside(path), FOLDER, id=f"{row.paper or 'figure'}-{row.number}",
+                   number=row.number, title=row.title, caption=row.caption, tolerance=row.tolerance,
+                   differences=words(row), command=row.command, rows=(), claims=(), cases=(),
                    more=[FOLDER + part.name for part in more])
 
 
@@ -166,9 +167,9 @@ def _sensible(chapter, folder):
     result = compare(case, np.linspace(0.0, chapter.sensible_end, TIMES))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
-        path = style.save(cost_text.picture(plt, case, runs, chapter.parts, units=SI),
-                          folder / FOLDER / f"{chapter.paper}-sensible.png")
-    return picture(path, FOLDER, case=case.name, title=written(case.title), why=written(chapter.note),
+        paths = narrow.save_both(cost_text.picture(plt, case, runs, chapter.parts, units=SI),
+                                 folder / FOLDER / f"{chapter.paper}-sensible.png")
+    return picture(*paths, FOLDER, case=case.name, title=written(case.title), why=written(chapter.note),
                    end=chapter.sensible_end, rows=_errors(case, None, result), parameters=_parameters(case),
                    path=f"cases/{case.name}.toml")
 

@@ -26,7 +26,7 @@ from ...maps.percentiles import of_case_drawn
 from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
-from .. import certification, frame, limiting, style
+from .. import certification, frame, limiting, narrow, style
 from ..picture_kinds import KINDS
 from ..plot import subject as subjects
 from ..plot import to_file
@@ -90,10 +90,10 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
                 caption = OF_THE_FILE
             if kind == "time":
                 caption += _later(item)
-            narrow = None if result or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
-            made, *more = to_file.write_all(item, folder / f"{stem}-{kind}.png", kind, page.size,
-                                            units=units, narrow=narrow, titled=page.titled)
-            result.append(picture(made, "", narrow, caption=caption, kind=kind, title=title, place=page.place,
+            path = folder / f"{stem}-{kind}.png"
+            made, *more = to_file.write_all(item, path, kind, page.size, units=units,
+                                            narrow=narrow.beside(path), titled=page.titled)
+            result.append(picture(made, narrow.beside(path), caption=caption, kind=kind, title=title, place=page.place,
                                  more=[path.name for path in more],
                                  command=f"stabilab plot {item.path} --kind {kind}"))
     return result
@@ -388,7 +388,7 @@ def _picture(moved, keys, cases, units, path):
         ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ",
                ylabel=with_unit(f"|{letter}|", unit))
         style.legend(figure, list(_legend(keys, cases)), columns=3)
-        return html.picture(style.save(figure, path),
+        return html.picture(*narrow.save_both(figure, path),
                             caption=f"The size of the rates, |{letter}|, of every combination.")
 
 

@@ -1,0 +1,134 @@
+"""Pictures for a telephone: the same figure again, narrower, its panels below each other, letters large enough.
+
+A page shows the narrow file where it is narrow itself. Titles that the page says are left to it."""
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+WIDTH, PIXELS = 4.6, 368  # inches of a figure, and the pixels that it has on a telephone 400 wide
+SMALLEST = 9 * WIDTH * 72 / PIXELS  # points of a letter of 9 pixels
+COLOURS = 64  # of a file: lines and letters
+ALONE, PANEL, SPACE = 3.6, 2.1, 4.0  # inches of height: of the only panel, of one of several, of one in space
+EQUAL = 3.4  # of a panel with one scale for both axes
+ENTRY = 46  # letters of a line of a legend
+
+
+def beside(path: Path) -> Path:
+    """The narrow file of a picture."""
+    return path.with_name(f"{path.stem}-narrow{path.suffix}")
+
+
+def save_both(figure: Figure, path: Path, titled: bool = True) -> tuple[Path, Path]:
+    """Write a picture, and beside it the narrow one; the paths of both. titled: as of `narrowed`."""
+    wide = style.save(figure, path)
+    return wide, save(figure, beside(path), titled)
+
+
+def save(figure: Figure, path: Path, titled: bool = True) -> Path:
+    """Write the narrow picture of a figure, which is changed."""
+    return style.save(narrowed(figure, titled), path, colours=COLOURS)
+
+
+def narrowed(figure: Figure, titled: bool = True) -> Figure:
+    """The figure, changed: as wide as a telephone shows it with letters of 9 pixels, a panel below the other.
+    titled: whether the title of an only panel is left; that of a whole figure is dropped."""
+    from matplotlib.text import Text
+    if figure.get_suptitle():
+        figure.suptitle("")
+    cells = _cells(figure)
+    _name_all(cells)
+    heights = [_height(ax, len(cells)) for ax, _, _ in cells]
+    if len(cells) > 1:
+        grid = figure.add_gridspec(len(cells), 1, height_ratios=heights)
+        for n, (first, _, _) in enumerate(cells):
+            spec = first.get_subplotspec()
+            for ax in [ax for ax in figure.axes if ax.get_subplotspec() == spec]:
+                ax.set_subplotspec(grid[n])
+    elif not titled:
+        cells[0][0].set_title("")
+    figure.set_size_inches(WIDTH, sum(heights))
+    for text in figure.findobj(Text):
+        text.set_fontsize(max(text.get_fontsize(), SMALLEST))
+    for (ax, _, _), height in zip(cells, heights):
+        _readable(ax, height)
+    for legend in list(figure.legends):
+        _below(figure, legend)
+    below = sum(legend.get_window_extent().height for legend in figure.legends) / figure.dpi
+    figure.set_size_inches(WIDTH, sum(heights) + below)
+    return figure
+
+
+def _cells(figure: Figure) -> list[tuple[Any, int, int]]:
+    """(axes, row, column) of the panels, row by row; of axes in one place the first, insets go with theirs."""
+    cells: dict = {}
+    for ax in figure.axes:
+        spec = ax.get_subplotspec()
+        if spec is not None and ax.get_visible():
+            cells.setdefault((spec.rowspan.start, spec.colspan.start), ax)
+    return [(ax, *at) for at, ax in sorted(cells.items(), key=lambda item: item[0])]
+
+
+def _name_all(cells: list[tuple[Any, int, int]]) -> None:
+    """Panels below each other no longer share a heading, a label or numbers with those beside or below them."""
+    if len(cells) == 1:
+        return
+    for ax, row, column in cells:
+        if not ax.get_title():
+            above = [other for other, r, c in cells if c == column and r < row and other.get_title()]
+            if above:  # as far from the panel, which may have more lines of words there
+                offset = above[-1].titleOffsetTrans.to_values()[-1] * 72 / ax.figure.dpi
+                ax.set_title(above[-1].get_title(), pad=offset)
+        if not ax.get_ylabel():
+            before = [other.get_ylabel() for other, r, c in cells if r == row and c < column and other.get_ylabel()]
+            ax.set_ylabel(before[0] if before else "")
+    labels = [ax.get_xlabel() or next((other.get_xlabel() for other, r, c in cells
+                                       if c == column and r > row and other.get_xlabel()), "")
+              for ax, row, column in cells]
+    for n, (ax, _, _) in enumerate(cells):
+        ax.set_xlabel(labels[n] if len(set(labels)) > 1 or n == len(cells) - 1 else "")
+        if getattr(ax, "name", "") != "3d":
+            ax.tick_params(labelleft=True, labelbottom=True)
+
+
+def _height(ax: Any, count: int) -> float:
+    """Inches of a panel among so many."""
+    if getattr(ax, "name", "") == "3d":
+        return SPACE
+    if ax.get_aspect() != "auto":
+        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+        return min(1.6 * WIDTH, max(PANEL, EQUAL * abs((high - low) / (right - left)) * float(ax.get_aspect()) + 0.8))
+    return ALONE if count == 1 else PANEL
+
+
+def _readable(ax: Axes, height: float) -> None:
+    """Labels within the panel, and numbers at its edges as large as the other letters."""
+    for axis in filter(None, (ax.xaxis, ax.yaxis, getattr(ax, "zaxis", None))):
+        ticks = axis.get_major_ticks()
+        if ticks and ticks[0].label1.get_fontsize() < SMALLEST:
+            axis.set_tick_params(labelsize=SMALLEST)
+    dpi, label = ax.figure.dpi, ax.yaxis.label
+    if getattr(ax, "name", "") != "3d" and label.get_window_extent().height > 0.9 * height * dpi:
+        label.set_text(label.get_text().replace(" (", "\n("))
+        label.set_fontsize(SMALLEST)
+    ax.title.set_text(style.clauses(ax.get_title(), WIDTH - 0.5))
+
+
+def _below(figure: Figure, legend: Any) -> None:
+    """A legend again, of as many columns as fit, long entries and its heading in lines."""
+    names = [text.get_text() if "$" in text.get_text() else textwrap.fill(text.get_text(), ENTRY)
+             for text in legend.get_texts()]
+    heading, handles = " ".join(legend.get_title().get_text().split()), legend.legend_handles
+    legend.remove()
+    style.below(figure, handles, names)
+    if heading and heading != "None":
+        built = figure.legends[-1]
+        built.set_title(textwrap.fill(heading, ENTRY + 6), prop={"size": SMALLEST})
+        built.get_title().set(color=style.GREY, parse_math=False)
