@@ -233,7 +233,8 @@ def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
     index.hard_cases(folder, nav=nav, here="hard-cases.html")
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
-                   pictures=[(file, text) for file, text in COST_PICTURES if (folder / file).exists()],
+                   pictures=[html.picture(path, narrow.beside(path), f"{Path(file).parent}/", words=text)
+                             for file, text in COST_PICTURES for path in [folder / file] if path.exists()],
                    here="cost.html")
     _start(cases, folder, result, nav, groups, audit, tools, cost, around)
     return [(value["beyond"], value["open"]) for name, value in result.items() if name.startswith("case ")]

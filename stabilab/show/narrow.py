@@ -18,6 +18,7 @@ SMALLEST = 9 * WIDTH * 72 / PIXELS  # points of a letter of 9 pixels
 COLOURS = 64  # of a file: lines and letters
 ALONE, PANEL, SPACE = 3.6, 2.1, 4.0  # inches of height: of the only panel, of one of several, of one in space
 EQUAL = 3.4  # of a panel with one scale for both axes
+HEADING = 10  # points of a title
 ENTRY = 46  # letters of a line of a legend
 
 
@@ -48,6 +49,8 @@ def narrowed(figure: Figure, titled: bool = True) -> Figure:
     heights = [_height(ax, len(cells)) for ax, _, _ in cells]
     if len(cells) > 1:
         grid = figure.add_gridspec(len(cells), 1, height_ratios=heights)
+        engine: Any = figure.get_layout_engine()
+        engine.set(w_pad=0.09)  # inches: numbers at the ends of axes
         for n, (first, _, _) in enumerate(cells):
             spec = first.get_subplotspec()
             for ax in [ax for ax in figure.axes if ax.get_subplotspec() == spec]:
@@ -63,6 +66,7 @@ def narrowed(figure: Figure, titled: bool = True) -> Figure:
         _below(figure, legend)
     below = sum(legend.get_window_extent().height for legend in figure.legends) / figure.dpi
     figure.set_size_inches(WIDTH, sum(heights) + below)
+    _thinned(figure, [ax for ax, _, _ in cells])
     return figure
 
 
@@ -118,7 +122,22 @@ def _readable(ax: Axes, height: float) -> None:
     if getattr(ax, "name", "") != "3d" and label.get_window_extent().height > 0.9 * height * dpi:
         label.set_text(label.get_text().replace(" (", "\n("))
         label.set_fontsize(SMALLEST)
-    ax.title.set_text(style.clauses(ax.get_title(), WIDTH - 0.5))
+    ax.title.set_fontsize(min(ax.title.get_fontsize(), HEADING))
+    ax.title.set_text("\n".join(style.clauses(line, WIDTH - 0.3) for line in ax.get_title().split("\n")))
+
+
+def _thinned(figure: Figure, panels: list[Any]) -> None:
+    """Words at points of a panel that would lie on earlier ones are left out: they stand in the wide picture.
+    """
+    crowded = [ax for ax in panels if len(ax.texts) > 1 and getattr(ax, "name", "") != "3d"]
+    if crowded:
+        figure.draw_without_rendering()
+    for ax in crowded:
+        taken: list[Any] = []
+        for text in ax.texts:
+            box = text.get_window_extent()
+            text.set_visible(not any(box.overlaps(other) for other in taken))
+            taken += [box] if text.get_visible() else []
 
 
 def _below(figure: Figure, legend: Any) -> None:
