@@ -318,7 +318,7 @@ def _cases(cases, folder, result, nav, around):
         own.write(built, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
                   **own.of_one(built, around))
         row = own.listed(stem, built)
-        rows["" if "sweep" in built else row["look"]].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
+        rows["" if "sweep" in built else row["look"]].append(row)
     groups = [{"title": title, "rows": rows[look]} for look, title in LOOKS.items() if rows[look]]
     html.write(folder / "cases.html", "list.html", title="Cases by outcome", groups=groups, nav=nav,
                here="cases.html", **around)
@@ -415,6 +415,16 @@ def _edge(cases, result) -> tuple[str, str] | None:
     return None
 
 
+def _examples(cases, result) -> list[dict]:
+    """A card for the first case of every group that has a picture."""
+    rows: dict[str, dict] = {}
+    for stem, members in own.entries(cases):
+        row = own.listed(stem, result[f"case {stem}"])
+        if row["thumbnail"]:
+            rows.setdefault(group(members[0]), row)
+    return [rows[title] for title, _ in GROUPS if title in rows]
+
+
 def _questions(cases, result, hero, audit, cost) -> list[dict]:
     """(question, its answer, where more of it stands) of what the report answers."""
     edge = _edge(cases, result)
@@ -450,7 +460,7 @@ def _start(cases, folder, out, nav, groups, audit, tools, cost, around):
     cards = [page | {"words": text[page["file"]]} for page in nav if page["file"] != "index.html"]
     picture = out.get(f"figure {FINEST}") or out[f"figure {catalogue.FIGURES[0].number}"]
     html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
-               hero=hero, questions=_questions(cases, out, hero, audit, cost), here="index.html", **around)
+               hero=hero, examples=_examples(cases, out), questions=_questions(cases, out, hero, audit, cost), here="index.html", **around)
 
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")

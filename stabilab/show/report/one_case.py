@@ -29,7 +29,7 @@ from ...verify import verify_file
 from .. import certification, frame, limiting, narrow, style
 from ..picture_kinds import KINDS
 from ..plot import subject as subjects
-from ..plot import to_file
+from ..plot import thumbnail, to_file
 from ..plot.histogram import SEED, is_known
 from ..plot.in_space import space_of
 from ..plot.over_time import file_axes
@@ -38,6 +38,7 @@ from ..plot.subject import subject
 from ..space import data
 from ..terminal import printed, some
 from ..text import percentiles
+from ..text.badge import badge
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
 from ..text.motion import circular_orbit_text, constants, margins, orbit_headline, shown, state
@@ -108,7 +109,15 @@ def small_body(item, folder: Path, stem: str, units: str) -> dict | None:
         return None
     path, *_ = to_file.write_all(item, folder / f"{stem}-small.png", "body", SMALL_BODY, units=units,
                                  titled=False)
-    return picture(path, "", None)
+    return picture(path)
+
+
+def _thumbnail(items, folder: Path, stem: str) -> dict | None:
+    """The picture of a card, of motions with their looks; None where one cannot be followed."""
+    try:
+        return picture(thumbnail.write(items, folder / f"{stem}-card.png"))
+    except StabilabError:
+        return None
 
 
 def _later(item) -> str:
@@ -164,6 +173,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "caveats": list(map(printed, caveats)),
             "fate": "" if moved is None else "undecided" if open_fate(box) else moved.fate.word,
             "look": "" if moved is None else "conditional" if open_fate(box) else look(moved),
+            "badge": badge(moved, open_fate(box)), "thumbnail": None,
             "tiles": [], "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None,
             "certificate": None,
             "equilibria": result and equilibrium_table(result, units),
@@ -176,6 +186,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(item, folder, stem, deep,
                                                     "deg" if units.scaled else units.name, result)) or [])
+        page["thumbnail"] = _thumbnail([(item, page["look"])], folder, stem)
         missing: dict[str, list[str]] = {}  # titles by their reason
         for kind, about in SHOWN.items():
             if kind == "histogram" and not case.uncertain:  # a case without such numbers lacks nothing
@@ -346,6 +357,10 @@ def sections_of_sweep(cases, folder: Path, stem: str) -> dict:
             "keys": [with_unit(label.replace("_", " "), unit) for key in keys for label, unit, _ in key],
             "equations": _equations(first),
             "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
+            "thumbnail": _thumbnail([(replace(subject(case), known=result), look(result))
+                                     for case, result in moved], folder, stem) if moved else None,
+            "badge": badge(motions[0]) if len({badge(of) for of in motions}) == 1
+            else some(len(rows), "combination"),
             "headline": of_all_combinations(len(motions), answers[0]) if motions and not without
             else f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
             "look": visited.pop() if len(visited) == 1 else "",
