@@ -198,6 +198,17 @@ class Space:
                 | {branch.name: colour for colour, branch in self.branches})
 
 
+    def shape(self, text: str) -> str:
+        """How a key of the legend looks, so that it is told without its colour: "line", "dashed", "dot",
+        "square" or, of a surface, "area"."""
+        if text in {branch.name for _, branch in self.branches}:
+            return "area"
+        drawn = look(text)
+        if drawn.get("linestyle") == "none":
+            return "square" if drawn.get("marker") == "s" else "dot"
+        return "line" if drawn.get("linestyle", "-") == "-" else "dashed"
+
+
 MOTION, NEAREST, LIMIT = "this motion", "nearest point of the separatrix", "limit of |ω|"
 ASSUMED = f"assumed {LIMIT}"  # of a case that states none
 
@@ -490,7 +501,7 @@ def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
                        for text, at in drawn.marks],
             "arrows": [[_round(box.share(at)), _round([v / h for v, h in zip(step, box.half)])]
                        for at, step in drawn.arrows],
-            "legend": list(drawn.legend.items())}
+            "legend": [(text, colour, drawn.shape(text)) for text, colour in drawn.legend.items()]}
 
 
 def _packed(points: Iterable[Point], box: Box) -> bytes:
