@@ -460,7 +460,8 @@ def _start(cases, folder, out, nav, groups, audit, tools, cost, around):
     cards = [page | {"words": text[page["file"]]} for page in nav if page["file"] != "index.html"]
     picture = out.get(f"figure {FINEST}") or out[f"figure {catalogue.FIGURES[0].number}"]
     html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
-               hero=hero, examples=_examples(cases, out), questions=_questions(cases, out, hero, audit, cost), here="index.html", **around)
+               hero=hero, examples=_examples(cases, out),
+               questions=_questions(cases, out, hero, audit, cost), here="index.html", **around)
 
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")

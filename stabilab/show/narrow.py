@@ -1,4 +1,4 @@
-"""Pictures for a telephone: the same figure again, narrower, its panels below each other, letters large enough.
+"""Pictures for a telephone: the same figure again, narrower, with panels below each other and large letters.
 
 A page shows the narrow file where it is narrow itself. Titles that the page says are left to it."""
 from __future__ import annotations
@@ -71,7 +71,7 @@ def narrowed(figure: Figure, titled: bool = True) -> Figure:
 
 
 def _cells(figure: Figure) -> list[tuple[Any, int, int]]:
-    """(axes, row, column) of the panels, row by row; of axes in one place the first, insets go with theirs."""
+    """(axes, row, column) of the panels, row by row; of axes in one place the first."""
     cells: dict = {}
     for ax in figure.axes:
         spec = ax.get_subplotspec()
@@ -81,7 +81,7 @@ def _cells(figure: Figure) -> list[tuple[Any, int, int]]:
 
 
 def _name_all(cells: list[tuple[Any, int, int]]) -> None:
-    """Panels below each other no longer share a heading, a label or numbers with those beside or below them."""
+    """Give each panel the heading, label and numbers that it shared with those beside, above or below."""
     if len(cells) == 1:
         return
     for ax, row, column in cells:
@@ -91,8 +91,8 @@ def _name_all(cells: list[tuple[Any, int, int]]) -> None:
                 offset = above[-1].titleOffsetTrans.to_values()[-1] * 72 / ax.figure.dpi
                 ax.set_title(above[-1].get_title(), pad=offset)
         if not ax.get_ylabel():
-            before = [other.get_ylabel() for other, r, c in cells if r == row and c < column and other.get_ylabel()]
-            ax.set_ylabel(before[0] if before else "")
+            before = (other.get_ylabel() for other, r, c in cells if r == row and c < column)
+            ax.set_ylabel(next(filter(None, before), ""))
     labels = [ax.get_xlabel() or next((other.get_xlabel() for other, r, c in cells
                                        if c == column and r > row and other.get_xlabel()), "")
               for ax, row, column in cells]
@@ -108,7 +108,8 @@ def _height(ax: Any, count: int) -> float:
         return SPACE
     if ax.get_aspect() != "auto":
         (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
-        return min(1.6 * WIDTH, max(PANEL, EQUAL * abs((high - low) / (right - left)) * float(ax.get_aspect()) + 0.8))
+        shape = abs((high - low) / (right - left)) * float(ax.get_aspect())
+        return min(1.6 * WIDTH, max(PANEL, EQUAL * shape + 0.8))
     return ALONE if count == 1 else PANEL
 
 

@@ -140,8 +140,8 @@ def _free(box, room, taken, drawn) -> bool:
     within = room.x0 <= box.x0 and box.x1 <= room.x1 and room.y0 <= box.y0 and box.y1 <= room.y1
     if not within or any(box.overlaps(other) for other in taken):
         return False
-    (x, y), clear = drawn.T, 2 * CLEAR
-    return not ((x > box.x0 - clear) & (x < box.x1 + clear) & (y > box.y0 - clear) & (y < box.y1 + clear)).any()
+    low, high = np.array(box.min) - 2 * CLEAR, np.array(box.max) + 2 * CLEAR
+    return not ((drawn > low) & (drawn < high)).all(axis=1).any()
 
 
 def _dense(points: np.ndarray, scale: float) -> np.ndarray:
@@ -168,7 +168,8 @@ def write_both(result: Precision, path: Path) -> tuple[Path, Path]:
     with style.drawing() as plt:
         wide = style.save(picture(plt, result), path)
         figure, label = _unlabelled(plt, result)
-        figure.axes[0].set_title(figure.axes[0].get_title().partition(": ")[2])  # without the name of the case
+        ax = figure.axes[0]
+        ax.set_title(ax.get_title().partition(": ")[2])  # without the name of the case
         narrow.narrowed(figure)
         label()
         return wide, style.save(figure, narrow.beside(path), colours=narrow.COLOURS)

@@ -167,8 +167,8 @@ def _drawn(figure: Figure, dpi: float):
 
 
 def _of_few_colours(image, colours):
-    """A Pillow image in so many colours, those of the house among them: stripes below it make them common, and
-    are cut off again."""
+    """A Pillow image in so many colours, those of the house among them: stripes below it make them common,
+    and are cut off again."""
     from PIL import Image
     ours = dict.fromkeys((BLACK, "#FFFFFF", GREY, BLUE, AMBER, VERMILION, *AXES, VIOLET, SAGE, WINE,
                           *SURFACES, *FILL.values(), AGAINST))

@@ -9,7 +9,8 @@ from typing import Any
 
 from ...errors import InputError
 from ...packages import demand
-from .. import endings, narrow as narrow_pictures, style
+from .. import endings, style
+from .. import narrow as narrow_pictures
 from ..picture_kinds import KINDS
 from . import subject as subjects
 from .subject import Subject, subject

@@ -106,7 +106,8 @@ def picture(path: Path, narrow: Path | None = None, folder: str = "", /, **text)
     from PIL import Image
     with Image.open(path) as image:
         size = list(image.size)
-    return {"file": folder + path.name, "size": size, "narrow": narrow and picture(narrow, None, folder), **text}
+    return {"file": folder + path.name, "size": size, **text,
+            "narrow": narrow and picture(narrow, None, folder)}
 
 
 def render(template: str, **values) -> str:

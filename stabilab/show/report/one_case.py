@@ -38,7 +38,7 @@ from ..plot.subject import subject
 from ..space import data
 from ..terminal import printed, some
 from ..text import percentiles
-from ..text.badge import badge
+from ..text.badge import badge, line
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
 from ..text.motion import circular_orbit_text, constants, margins, orbit_headline, shown, state
@@ -94,8 +94,8 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
             path = folder / f"{stem}-{kind}.png"
             made, *more = to_file.write_all(item, path, kind, page.size, units=units,
                                             narrow=narrow.beside(path), titled=page.titled)
-            result.append(picture(made, narrow.beside(path), caption=caption, kind=kind, title=title, place=page.place,
-                                 more=[path.name for path in more],
+            result.append(picture(made, narrow.beside(path), caption=caption, kind=kind, title=title,
+                                 place=page.place, more=[path.name for path in more],
                                  command=f"stabilab plot {item.path} --kind {kind}"))
     return result
 
@@ -110,6 +110,23 @@ def small_body(item, folder: Path, stem: str, units: str) -> dict | None:
     path, *_ = to_file.write_all(item, folder / f"{stem}-small.png", "body", SMALL_BODY, units=units,
                                  titled=False)
     return picture(path)
+
+
+def card_of(cases, folder: Path) -> dict:
+    """What a card says of a case, or of all combinations of a file, its picture drawn into the folder: card
+    (its file, or empty), badge, look and line."""
+    answered = [(case, _answer(case)[0]) for case in cases]
+    moved = [(case, result) for case, result in answered if result is not None]
+    if not moved:
+        return {"card": "", "badge": "", "look": "", "line": ""}
+    looks, badges = {look(result) for _, result in moved}, {badge(result) for _, result in moved}
+    made = _thumbnail([(replace(subject(case), known=result), look(result)) for case, result in moved],
+                      folder, cases[0].name.removesuffix(cases[0].variant))
+    units = units_of(cases[0])
+    first = headline(*moved[0], units) if len(cases) == 1 else fates([one for _, one in moved], units)
+    return {"card": made["file"] if made else "", "look": looks.pop() if len(looks) == 1 else "",
+            "badge": badges.pop() if len(badges) == 1 else some(len(cases), "combination"),
+            "line": line(printed(first))}
 
 
 def _thumbnail(items, folder: Path, stem: str) -> dict | None:
