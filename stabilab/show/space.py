@@ -501,7 +501,7 @@ def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
                        for text, at in drawn.marks],
             "arrows": [[_round(box.share(at)), _round([v / h for v, h in zip(step, box.half)])]
                        for at, step in drawn.arrows],
-            "legend": [(text, colour, drawn.shape(text)) for text, colour in drawn.legend.items()]}
+            "legend": list(drawn.legend.items())}
 
 
 def _packed(points: Iterable[Point], box: Box) -> bytes:
