@@ -18,7 +18,8 @@ SMALLEST = 9 * WIDTH * 72 / PIXELS  # points of a letter of 9 pixels
 COLOURS = 64  # of a file: lines and letters
 ALONE, PANEL, SPACE = 3.6, 2.1, 4.0  # inches of height: of the only panel, of one of several, of one in space
 EQUAL = 3.4  # of a panel with one scale for both axes
-HEADING = 10  # points of a title
+HEADING, NOTE = 10, 8.5  # points of a title, and of notes in a legend
+HALF = 0.55  # of a panel's width: words at a point beyond stand on its left
 ENTRY = 46  # letters of a line of a legend
 
 
@@ -27,20 +28,20 @@ def beside(path: Path) -> Path:
     return path.with_name(f"{path.stem}-narrow{path.suffix}")
 
 
-def save_both(figure: Figure, path: Path, titled: bool = True) -> tuple[Path, Path]:
-    """Write a picture, and beside it the narrow one; the paths of both. titled: as of `narrowed`."""
+def save_both(figure: Figure, path: Path) -> tuple[Path, Path]:
+    """Write a picture, and beside it the narrow one; the paths of both."""
     wide = style.save(figure, path)
-    return wide, save(figure, beside(path), titled)
+    return wide, save(figure, beside(path))
 
 
-def save(figure: Figure, path: Path, titled: bool = True) -> Path:
+def save(figure: Figure, path: Path) -> Path:
     """Write the narrow picture of a figure, which is changed."""
-    return style.save(narrowed(figure, titled), path, colours=COLOURS)
+    return style.save(narrowed(figure), path, colours=COLOURS)
 
 
-def narrowed(figure: Figure, titled: bool = True) -> Figure:
+def narrowed(figure: Figure) -> Figure:
     """The figure, changed: as wide as a telephone shows it with letters of 9 pixels, a panel below the other.
-    titled: whether the title of an only panel is left; that of a whole figure is dropped."""
+    The title of a whole figure is dropped."""
     from matplotlib.text import Text
     if figure.get_suptitle():
         figure.suptitle("")
@@ -55,8 +56,6 @@ def narrowed(figure: Figure, titled: bool = True) -> Figure:
             spec = first.get_subplotspec()
             for ax in [ax for ax in figure.axes if ax.get_subplotspec() == spec]:
                 ax.set_subplotspec(grid[n])
-    elif not titled:
-        cells[0][0].set_title("")
     figure.set_size_inches(WIDTH, sum(heights))
     for text in figure.findobj(Text):
         text.set_fontsize(max(text.get_fontsize(), SMALLEST))
@@ -123,8 +122,15 @@ def _readable(ax: Axes, height: float) -> None:
     if getattr(ax, "name", "") != "3d" and label.get_window_extent().height > 0.9 * height * dpi:
         label.set_text(label.get_text().replace(" (", "\n("))
         label.set_fontsize(SMALLEST)
+    for text in ax.texts:
+        if getattr(text, "anncoords", "") == "offset points" and text.xycoords == "data" and text.get_text():
+            across, _ = ax.transAxes.inverted().transform(ax.transData.transform(text.xy))
+            right, up = text.xyann
+            if across > HALF and right > 0 and text.get_ha() == "left":  # it would widen the picture
+                text.set(ha="right")
+                text.xyann = -right, up
     ax.title.set_fontsize(min(ax.title.get_fontsize(), HEADING))
-    ax.title.set_text("\n".join(style.clauses(line, WIDTH - 0.3) for line in ax.get_title().split("\n")))
+    ax.title.set_text("\n".join(style.clauses(line, WIDTH, HEADING) for line in ax.get_title().split("\n")))
 
 
 def _thinned(figure: Figure, panels: list[Any]) -> None:
@@ -142,13 +148,12 @@ def _thinned(figure: Figure, panels: list[Any]) -> None:
 
 
 def _below(figure: Figure, legend: Any) -> None:
-    """A legend again, of as many columns as fit, long entries and its heading in lines."""
+    """A legend again, of as many columns as fit, long entries and its notes in lines."""
     names = [text.get_text() if "$" in text.get_text() else textwrap.fill(text.get_text(), ENTRY)
              for text in legend.get_texts()]
-    heading, handles = " ".join(legend.get_title().get_text().split()), legend.legend_handles
+    heading, handles = legend.get_title(), legend.legend_handles
+    notes = "" if heading.get_text() == "None" else " ".join(heading.get_text().split())
     legend.remove()
-    style.below(figure, handles, names)
-    if heading and heading != "None":
-        built = figure.legends[-1]
-        built.set_title(textwrap.fill(heading, ENTRY + 6), prop={"size": SMALLEST})
-        built.get_title().set(color=style.GREY, parse_math=False)
+    style.below(figure, handles, names, notes=notes and style.clauses(notes, WIDTH, NOTE))
+    for built in figure.legends[-1:]:
+        built.get_title().set(color=heading.get_color(), parse_math=heading.get_parse_math(), fontsize=NOTE)

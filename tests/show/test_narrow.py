@@ -46,6 +46,7 @@ def test_no_letter_of_a_narrow_picture_is_below_nine_pixels_and_nothing_is_cut_o
     monkeypatch.setattr(narrow, "save", lambda figure, *rest: (drawn.append(figure), save(figure, *rest))[1])
     to_file.write_all(load(name), tmp_path / "wide.png", kind, KINDS[kind].page.size,
                       narrow=tmp_path / "narrow.png", titled=KINDS[kind].page.titled)
+    assert len(drawn[0].axes[0].get_title().splitlines()) <= 2
     assert small_letters(drawn[0]) == [] and edges_are_free(tmp_path / "narrow.png")
     assert Image.open(tmp_path / "narrow.png").width == round(narrow.WIDTH * style.DPI)
 

@@ -153,7 +153,7 @@ def _write(row, out, progress, telephone):
         pictures = row.pictures(plt)
         paths = [style.save(drawn, out / name) for name, drawn in pictures.items()]
         if telephone:
-            narrow.save(pictures[row.file], narrow.beside(out / row.file), titled=len(paths) == 1)
+            narrow.save(pictures[row.file], narrow.beside(out / row.file))
     apart = [f"printed curve against exact motion, largest difference at equal times: {line}"
              for line in words(row)]
     with style.whole_file(paths[0].with_suffix(".txt")) as waiting:

@@ -71,7 +71,9 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
         files = [style.save(figure, endings.numbered(path, n), dpi)
                  for n, figure in enumerate(figures, 1)]
         if narrow is not None:
-            narrow_pictures.save(figures[0], Path(narrow), titled)
+            ax = figures[0].axes[0]
+            ax.set_title(ax.get_title().partition("\n")[2])  # without the heading of the case, as a page has it
+            narrow_pictures.save(figures[0], Path(narrow))
         return files
 
 

@@ -38,7 +38,7 @@ from ..plot.subject import subject
 from ..space import data
 from ..terminal import printed, some
 from ..text import percentiles
-from ..text.badge import badge, line
+from ..text.badge import badge
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
 from ..text.motion import circular_orbit_text, constants, margins, orbit_headline, shown, state
@@ -124,10 +124,10 @@ def card_of(cases, folder: Path) -> dict:
     made = _thumbnail([(replace(subject(case), known=result), look(result)) for case, result in moved],
                       folder, cases[0].name.removesuffix(cases[0].variant))
     units = units_of(cases[0])
-    first = headline(*moved[0], units) if len(cases) == 1 else fates([one for _, one in moved], units)
+    first = two_lines(*moved[0], units)[0] if len(cases) == 1 else fates([one for _, one in moved], units)
     return {"card": made["file"] if made else "", "look": looks.pop() if len(looks) == 1 else "",
             "badge": badges.pop() if len(badges) == 1 else some(len(cases), "combination"),
-            "line": line(printed(first))}
+            "line": printed(first)}
 
 
 def _thumbnail(items, folder: Path, stem: str) -> dict | None:

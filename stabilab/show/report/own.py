@@ -14,7 +14,6 @@ from ...orbit.separatrix.branches import separatrix
 from ...tasks import Task, done
 from .. import surface
 from ..text import headline
-from ..text.badge import line
 from ..text.scene import groups
 from . import html, one_case
 
@@ -108,7 +107,7 @@ def listed(stem, built) -> dict:
     """The card of an entry in a list of pages."""
     result = built.get("sweep") or built["case"]
     return {"file": f"{FOLDER}/{stem}.html", "folder": f"{FOLDER}/", "name": stem, "title": result["title"],
-            "headline": result["headline"], "line": line(result["headline"]), "look": result["look"],
+            "headline": result["headline"], "line": result.get("first") or result["headline"], "look": result["look"],
             "badge": result["badge"], "thumbnail": result["thumbnail"],
             # by how much; why that matters stands on the page
             "beyond": " ".join(filter(None, [result["exceeded"], *result["caveats"]]))}

@@ -1,4 +1,4 @@
-"""A motion on a card: what becomes of it in two or three words, and its answer in one short line."""
+"""What becomes of a motion in two or three words, for the card of its case."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -9,8 +9,6 @@ from . import headline
 
 if TYPE_CHECKING:
     from ...orbit.result import Motion
-
-LINE = 90  # letters of the line
 
 
 def badge(motion: Motion | None, undecided: bool = False) -> str:
@@ -34,13 +32,3 @@ def badge(motion: Motion | None, undecided: bool = False) -> str:
     if Kind.UNSTABLE in kinds:
         return f"{fate}, unstable"
     return f"{fate} on a condition" if Kind.TILT in kinds else fate
-
-
-def line(answer: str) -> str:
-    """Of an answer as many clauses as a card has room for, at least the first."""
-    first, *others = (answer.partition(headline.BY_LAW)[2] or answer).split("; ")
-    for clause in others:
-        if len(first) + len(clause) + 2 > LINE:
-            break
-        first += f"; {clause}"
-    return first

@@ -29,9 +29,6 @@ if TYPE_CHECKING:
 
 
 # --- How far an approximate law holds
-BY_LAW = "; by that law: "  # between a warning and the answer
-
-
 def first(validity, text: str, units: Units = SI, caveats=()) -> str:
     """The text with the caveats of its case, and with what is to be said of its law: behind the answer where
     the law holds; where it does not, as what follows is then no motion of such a body, that it does not
@@ -49,7 +46,7 @@ def first(validity, text: str, units: Units = SI, caveats=()) -> str:
 
 def warned(validity, answer: str) -> str:
     """The answer, behind a warning where its law does not hold: of a line that has room for no more."""
-    return f"{validity.status.upper()}{BY_LAW}{answer}" if beyond(validity) else answer
+    return f"{validity.status.upper()}; by that law: {answer}" if beyond(validity) else answer
 
 
 def key(validity, case=None, steady: bool = False) -> dict:
