@@ -72,7 +72,7 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
                  for n, figure in enumerate(figures, 1)]
         if narrow is not None:
             ax = figures[0].axes[0]
-            ax.set_title(ax.get_title().partition("\n")[2])  # without the heading of the case, as a page has it
+            ax.set_title(ax.get_title().partition("\n")[2])  # without the heading of the case: a page has it
             narrow_pictures.save(figures[0], Path(narrow))
         return files
 

@@ -107,8 +107,8 @@ def listed(stem, built) -> dict:
     """The card of an entry in a list of pages."""
     result = built.get("sweep") or built["case"]
     return {"file": f"{FOLDER}/{stem}.html", "folder": f"{FOLDER}/", "name": stem, "title": result["title"],
-            "headline": result["headline"], "line": result.get("first") or result["headline"], "look": result["look"],
-            "badge": result["badge"], "thumbnail": result["thumbnail"],
+            "headline": result["headline"], "line": result.get("first") or result["headline"],
+            "look": result["look"], "badge": result["badge"], "thumbnail": result["thumbnail"],
             # by how much; why that matters stands on the page
             "beyond": " ".join(filter(None, [result["exceeded"], *result["caveats"]]))}
 
