@@ -10,6 +10,15 @@ FOLDER = "cards"  # within the gallery: copied to _static
 SIZE, DPI = (2.4, 1.35), 200  # inches and dots an inch, as of the cards of a report
 
 
+def colours() -> str:
+    """The colours of badges, those of outcomes on every page of a report."""
+    from stabilab.show import style
+    ink = {"conditional": " color: #000;"}
+    rules = (f".cases b.{look} {{ background: {colour};{ink.get(look, '')} }}"
+             for look, colour in style.LOOK.items())
+    return "\n".join(["```{raw} html", f"<style>{' '.join(rules)}</style>", "```\n"])
+
+
 def cards(built: list[str]) -> list[str]:
     """Cards beside each other."""
     return ['```{raw} html\n<div class="cases">', *built, "</div>\n```\n"]

@@ -125,7 +125,7 @@ def questions(entries: list[dict], folder: Path) -> list[str]:
 
 def overview(grouped: dict[str, list[dict]], asked: list[str]) -> str:
     """The page of all pictures."""
-    parts = [HEAD, *cards.cards(asked), ABOUT]
+    parts = [HEAD, cards.colours(), *cards.cards(asked), ABOUT]
     for title, rows in grouped.items():
         parts.append(f"## [{title}]({FOLDER}/{slug(title)}.md)\n")
         where = f"{FOLDER}/{slug(title)}.html#"

@@ -56,10 +56,10 @@ DRAWS = 200  # of the uncertain numbers of a page: a second or two
 def space(item, at_rest, units) -> dict:
     """What the script draws of a subject, the legend, and words on the separatrix. at_rest: equilibria."""
     result = space_of(item, map(printed, item.scene.components), units.rates, at_rest, reaching=True)
-    keys = [(text, colour, result.shape(text)) for text, colour in result.legend.items()]
     drawn = data(result, lambda places: b64encode(places).decode("ascii"))
     reason = "; ".join(filter(None, (result.caption, result.part)))
-    return {"drawn": drawn, "legend": keys, "reason": printed(units.axes.sentence(reason)),
+    return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.axes.sentence(reason)),
+            "shapes": {text: result.shape(text) for text in result.legend},
             "clipped": any(max(map(abs, result.box.share(at))) > 1 + 1e-9 for _, branch in result.branches
                            for at in branch.points)}
 
