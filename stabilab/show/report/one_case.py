@@ -248,6 +248,7 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         around = circular_orbit(full)
         line, text = orbit_headline(around.equilibria), circular_orbit_text(case, around, units)
         fate = looks = ""
+    marked = fate and (fate if fate == "undecided" else badge(answer.closed.motion))
     every = deep or not burning
     drawn = _tried(absent, "Pictures", lambda: pictures(item, folder, stem, every, units.name)) or []
     own = SPECIAL["burn" if burning else "orbit"]
@@ -260,11 +261,12 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
     absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
     caveats = limiting.beside(item.caveats, units, line)
-    return dict.fromkeys(("law", "exceeded", "over", "uncertain", "sensitivity", "certificate", "equilibria",
-                          "equations", "space"), "") | {
+    return dict.fromkeys(("law", "exceeded", "over", "uncertain", "percentiles", "sensitivity",
+                          "certificate", "equilibria", "equations", "space"), "") | {
         "name": case.name, "title": case.heading, "source": case.source, "path": case.path,
         "text": case.text, "headline": printed(line), "first": printed(line), "small": "",
-        "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "tiles": [], "facts": [],
+        "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "badge": marked,
+        "tiles": [], "facts": [],
         "extremes": [], "pictures": drawn, "answer": printed(text),
         "absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
 

@@ -108,7 +108,8 @@ def listed(stem, built) -> dict:
     result = built.get("sweep") or built["case"]
     return {"file": f"{FOLDER}/{stem}.html", "folder": f"{FOLDER}/", "name": stem, "title": result["title"],
             "headline": result["headline"], "line": result.get("first") or result["headline"],
-            "look": result["look"], "badge": result["badge"], "thumbnail": result["thumbnail"],
+            "look": result["look"], "badge": result.get("badge", ""),
+            "thumbnail": result.get("thumbnail"),
             # by how much; why that matters stands on the page
             "beyond": " ".join(filter(None, [result["exceeded"], *result["caveats"]]))}
 
