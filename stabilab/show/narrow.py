@@ -122,7 +122,8 @@ def _readable(ax: Axes, height: float) -> None:
     if getattr(ax, "name", "") != "3d" and label.get_window_extent().height > 0.9 * height * dpi:
         label.set_text(label.get_text().replace(" (", "\n("))
         label.set_fontsize(SMALLEST)
-    for text in ax.texts:
+    texts: list[Any] = list(ax.texts)
+    for text in texts:
         if getattr(text, "anncoords", "") == "offset points" and text.xycoords == "data" and text.get_text():
             across, _ = ax.transAxes.inverted().transform(ax.transData.transform(text.xy))
             right, up = text.xyann
