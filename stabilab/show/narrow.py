@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 WIDTH, PIXELS = 4.6, 368  # inches of a figure, and the pixels that it has on a telephone 400 wide
 SMALLEST = 9 * WIDTH * 72 / PIXELS  # points of a letter of 9 pixels
-COLOURS = 64  # of a file: lines and letters
+COLOURS, DPI = 32, 96  # of a file, which stays small: 441 pixels wide
 ALONE, PANEL, SPACE = 3.6, 2.1, 4.0  # inches of height: of the only panel, of one of several, of one in space
 EQUAL = 3.4  # of a panel with one scale for both axes
 HEADING, NOTE = 10, 8.5  # points of a title, and of notes in a legend
@@ -36,7 +36,7 @@ def save_both(figure: Figure, path: Path) -> tuple[Path, Path]:
 
 def save(figure: Figure, path: Path) -> Path:
     """Write the narrow picture of a figure, which is changed."""
-    return style.save(narrowed(figure), path, colours=COLOURS)
+    return style.save(narrowed(figure), path, DPI, COLOURS)
 
 
 def narrowed(figure: Figure) -> Figure:

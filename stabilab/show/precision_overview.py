@@ -172,7 +172,7 @@ def write_both(result: Precision, path: Path) -> tuple[Path, Path]:
         ax.set_title(ax.get_title().partition(": ")[2])  # without the name of the case
         narrow.narrowed(figure)
         label()
-        return wide, style.save(figure, narrow.beside(path), colours=narrow.COLOURS)
+        return wide, style.save(figure, narrow.beside(path), narrow.DPI, narrow.COLOURS)
 
 
 def write(result: Precision, path: Path, size=None) -> Path:

@@ -144,7 +144,7 @@ def save(figure: Figure, path: Path | str, dpi: float | None = None, colours: in
     kind = endings.ending(path)
     with whole_file(path) as waiting:
         if kind == ".png":
-            _of_few_colours(_drawn(figure, dpi or DPI), colours).save(waiting, format="png", optimize=True)
+            _of_few_colours(_drawn(figure, dpi or DPI), colours).save(waiting, format="png")
         else:
             figure.savefig(waiting, format=kind[1:], dpi=dpi or DPI, metadata=_UNDATED[kind])
     return path

@@ -363,7 +363,7 @@ def test_every_picture_of_a_page_has_a_narrow_one_for_telephones(several, alone)
         narrow = re.findall(r'<source media="\(max-width: 36rem\)" srcset="(.*?)" width="(\d+)" height="(\d+)">', text)
         assert len(narrow) == text.count('<img class="drawn"') == text.count("</picture>")
         for file, width, height in narrow:
-            assert Image.open(page.parent / file).size == (int(width), int(height)) and int(width) == 506
+            assert Image.open(page.parent / file).size == (int(width), int(height)) and int(width) == 441
 
 
 @pytest.mark.slow

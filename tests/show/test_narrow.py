@@ -48,7 +48,7 @@ def test_no_letter_of_a_narrow_picture_is_below_nine_pixels_and_nothing_is_cut_o
                       narrow=tmp_path / "narrow.png", titled=KINDS[kind].page.titled)
     assert len(drawn[0].axes[0].get_title().splitlines()) <= 2
     assert small_letters(drawn[0]) == [] and edges_are_free(tmp_path / "narrow.png")
-    assert Image.open(tmp_path / "narrow.png").width == round(narrow.WIDTH * style.DPI)
+    assert Image.open(tmp_path / "narrow.png").width == int(narrow.WIDTH * narrow.DPI)
 
 
 def test_panels_stand_below_each_other_and_each_has_what_it_shared():

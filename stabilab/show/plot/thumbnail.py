@@ -46,7 +46,7 @@ def _picture(plt: Any, items: Sequence[tuple[Subject, str]], units: str | None) 
     ax.spines[["top", "right"]].set_visible(False)
     if limit:
         ax.axhline(limit[0], **LIMIT | {"linewidth": 1.2})
-        _written(ax, begin, limit[0], limit[1], LIMIT["color"])
+        _written(ax, begin, limit[0], limit[1], str(LIMIT["color"]))
     else:
         name, per = ("", 1.0) if file_axes(first) is not None else scale.rate
         _written(ax, begin, largest, f"{number(largest * per, SHORT)} {name}".rstrip(), style.BLACK)
