@@ -8,7 +8,7 @@ HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE.parent), str(HERE)]
 
 from docutils import nodes  # noqa: E402
-from making import commands, gallery, notebooks, reference, written  # noqa: E402
+from making import cards, commands, gallery, notebooks, reference, written  # noqa: E402
 from sphinx import addnodes  # noqa: E402
 
 import stabilab  # noqa: E402
@@ -19,7 +19,9 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "making.mathml"]
 myst_enable_extensions, html_math_renderer = ["dollarmath"], "mathml"
 exclude_patterns = ["_site"]
 html_theme, html_title = "furo", "stabilab"
-html_static_path, html_css_files = ["static"], ["site.css"]
+(HERE / gallery.FOLDER / cards.FOLDER).mkdir(parents=True, exist_ok=True)  # Sphinx looks before it is written
+html_static_path = ["static", f"{gallery.FOLDER}/{cards.FOLDER}"]
+html_css_files = ["site.css"]
 html_show_copyright = False
 # they are fetched page by page, which a browser refuses from the disk: an error for every result
 html_show_search_summary = False

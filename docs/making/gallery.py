@@ -8,10 +8,10 @@ program, and made again when either has changed.
 from __future__ import annotations
 
 import hashlib
-import html
 import json
 from pathlib import Path
 
+from . import cards
 from .written import page
 
 ROOT = Path(__file__).parents[2]
@@ -22,14 +22,15 @@ HEAD = """# Cases
 ## By question
 
 """
-# question, the page that answers it, the case that is drawn above it
+# question, the page that answers it, the case of whose picture its card has
 QUESTIONS = (("My thruster is stuck open: what happens, how soon, how large?", "stuck", "geostationary-22n"),
              ("How far is the motion from the separatrix?", "distance", "minor-axis-100"),
-             ("What does accuracy cost in time?", "cost", "toutatis"),
+             ("What does accuracy cost in time?", "cost", "minor-axis-100"),
              ("Where do formulas that are right on paper lose their digits?", "hard-cases", "top-fast"),
              ("What do the five papers say, and what is so?", "audit", "charged-body"))
-ABOUT = """Each picture below is a case file of the folder `cases/`: a body, what acts on it, and one motion.
-A click leads to the answer, the file and the commands.
+ABOUT = """Each card below is a case file of the folder `cases/`: a body, what acts on it, and one motion; its
+picture has the size of the rates over time, and the limit where there is one. A click leads to the answer,
+the file and the commands.
 
 """
 LEAD = (
@@ -41,15 +42,20 @@ def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
     """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of
     the pages. cases: None for all."""
     from stabilab.papers.report import LOOKS
+    (docs / FOLDER / cards.FOLDER).mkdir(parents=True, exist_ok=True)
     entries = [entry(path, docs / FOLDER) for path in cases or sorted((ROOT / "cases").glob("*.toml"))]
     grouped = {title: sorted((one for one in entries if one["group"] == title), key=lambda one: one["scene"])
                for title in LOOKS.values()}
     grouped = {title: rows for title, rows in grouped.items() if rows}
-    page(docs / "gallery.md", overview(grouped))
+    page(docs / "gallery.md", overview(grouped, questions(entries, docs / FOLDER)))
     known = ({f"{slug(title)}.md" for title in grouped}
              | {f"{one['name']}{ending}" for one in entries for ending in (".png", ".json")})
+    cards_of = {one["card"] for one in entries}
+    for path in (docs / FOLDER / cards.FOLDER).glob("*-card.png"):
+        if path.name not in cards_of:
+            path.unlink()
     for path in (docs / FOLDER).iterdir():
-        if path.name not in known:  # of a case or a group that is gone
+        if path.is_file() and path.name not in known:  # of a case or a group that is gone
             path.unlink()
     for title, rows in grouped.items():
         page(docs / FOLDER / f"{slug(title)}.md", f"# {title}\n\n{LEAD}" + "\n".join(map(section, rows)))
@@ -60,7 +66,7 @@ def entry(path: Path, folder: Path) -> dict:
     """What the pages say of one case; its picture is in the folder then."""
     text = path.read_text(encoding="utf-8")
     key, kept = hashlib.sha256((program() + text).encode()).hexdigest(), folder / f"{path.stem}.json"
-    if kept.exists() and (folder / f"{path.stem}.png").exists():
+    if all(file.exists() for file in (kept, folder / f"{path.stem}.png", folder / cards.FOLDER)):
         known = json.loads(kept.read_text(encoding="utf-8"))
         if known["key"] == key:
             return known
@@ -71,12 +77,13 @@ def entry(path: Path, folder: Path) -> dict:
 
 def made(path: Path, folder: Path) -> dict:
     """Title, source, outcome, number of its kind of scene, answer and kind of picture of a case, which is
-    drawn. Of a sweep the first combination is drawn."""
+    drawn, with what its card says. Of a sweep the first combination is drawn; its card has all."""
     from stabilab.case.read import load_all
     from stabilab.papers.report import GROUPS, LOOKS, group
     from stabilab.show.plot import subject as which
     from stabilab.show.plot import write
     from stabilab.show.plot.subject import subject
+    from stabilab.show.report.one_case import card_of
     from stabilab.show.terminal import written
     from stabilab.show.text.headline import headline, look
     case, *others = load_all(path)
@@ -86,6 +93,7 @@ def made(path: Path, folder: Path) -> dict:
     first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
     return {"title": written(case.title), "source": written(case.source or ""),
             "scene": [title for title, _ in GROUPS].index(group(case)),
+            **card_of([case, *others], folder / cards.FOLDER),
             "group": LOOKS["" if others or case.state is None else look(one.motion)],
             "kind": which.default(one),
             "answer": first + headline(case, one.motion)}
@@ -93,35 +101,37 @@ def made(path: Path, folder: Path) -> dict:
 
 def program() -> str:
     """A hash of everything that a picture or an answer may depend on."""
-    seen = hashlib.sha256(Path(__file__).read_bytes())
+    seen = hashlib.sha256(Path(__file__).read_bytes() + Path(cards.__file__).read_bytes())
     for path in sorted((ROOT / "stabilab").rglob("*.py")):
         seen.update(path.read_bytes())
     return seen.hexdigest()
 
 
-def overview(grouped: dict[str, list[dict]]) -> str:
+def questions(entries: list[dict], folder: Path) -> list[str]:
+    """The cards of the questions whose cases are among the entries; their pictures are kept beside a hash of
+    the program."""
+    from stabilab.case.read import load_all
+    held, kept, built = {one["name"] for one in entries}, folder / cards.FOLDER / "questions.txt", []
+    same = kept.exists() and kept.read_text(encoding="utf-8") == program()
+    for question, about, name in QUESTIONS:
+        file = folder / cards.FOLDER / f"question-{about}.png"
+        if name in held:
+            if not (same and file.exists()):
+                cards.draw(about, load_all(ROOT / "cases" / f"{name}.toml")[0], file)
+            built.append(cards.of_question(f"{about}.html", question, file.name if file.exists() else ""))
+    kept.write_text(program(), encoding="utf-8")
+    return built
+
+
+def overview(grouped: dict[str, list[dict]], asked: list[str]) -> str:
     """The page of all pictures."""
-    held = {one["name"]: one for rows in grouped.values() for one in rows}
-    asked = [card(f"{page}.html", held[name], words) for words, page, name in QUESTIONS if name in held]
-    parts = [HEAD, *cards(asked), ABOUT]
+    parts = [HEAD, cards.colours(), *cards.cards(asked), ABOUT]
     for title, rows in grouped.items():
         parts.append(f"## [{title}]({FOLDER}/{slug(title)}.md)\n")
-        parts += cards(card(f"{FOLDER}/{slug(title)}.html#{one['name'].replace('_', '-')}", one, one["name"])
-                       for one in rows)
+        where = f"{FOLDER}/{slug(title)}.html#"
+        parts += cards.cards([cards.of_case(where + one["name"].replace("_", "-"), one) for one in rows])
     pages = "\n".join(f"{FOLDER}/{slug(title)}" for title in grouped)
     return "\n".join(parts) + f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
-
-
-def cards(made) -> list[str]:
-    """Cards beside each other."""
-    return ['```{raw} html\n<div class="cases">', *made, "</div>\n```\n"]
-
-
-def card(where: str, one: dict, words: str) -> str:
-    """The picture of a case above some words; both lead to a place."""
-    alt = html.escape(f"{one['title']}: {one['answer']}", quote=True)
-    return (f'<a href="{where}" title="{alt}"><img loading="lazy" src="_images/{one["name"]}.png" '
-            f'alt="{alt}"><span>{html.escape(words)}</span></a>')
 
 
 def section(one: dict) -> str:

@@ -21,7 +21,7 @@ from ..physics.effects import REGISTRY, effect_class
 from ..physics.equations import derive
 from ..physics.scene import Body, Scene
 from ..physics.to_numpy import Form, form, to_numpy
-from ..show import style
+from ..show import narrow, style
 from ..show.report import html
 from ..show.text.cost import caption, duration
 
@@ -202,10 +202,10 @@ def page(folder, tell=None, **around) -> Path:
     tell("effects of zero strength")
     zero = {name: zero_is_absent(name) for name, (_, none) in EXAMPLES.items() if none}
     with style.drawing() as plt:
-        style.save(picture(plt, steps), folder / PICTURE)
-        style.save(bar(plt, steps), folder / BAR)
+        drawn = html.picture(*narrow.save_both(picture(plt, steps), folder / PICTURE))
+        narrow.save_both(bar(plt, steps), folder / BAR)
     return html.write(
-        folder / "effects.html", "effects.html", picture=PICTURE, many=MANY, machine=caption(),
+        folder / "effects.html", "effects.html", picture=drawn, many=MANY, machine=caption(),
         words=words(steps, singles, zero),
         ladder=[_row(cost, seconds) for cost, seconds in steps],
         alone=[_row(cost, seconds) | {"modules": ", ".join(modules)} for cost, seconds, modules in singles],

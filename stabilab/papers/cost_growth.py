@@ -28,7 +28,7 @@ from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit, ball_orbit
 from ..orbit.period import period_ball, precise_period
 from ..orbit.result import Fate
-from ..show import style
+from ..show import narrow, style
 from ..show.data import csv_lines
 from ..show.report import html
 from ..show.text.cost import caption, duration
@@ -266,9 +266,9 @@ def page(case, folder, tell=None, full: bool = False, **around) -> Path:
     pictures = []
     for about in TITLES:
         with style.drawing() as plt:
-            style.save(picture(plt, [r for r in rows if r.about == about], about),
-                       folder / "growth" / f"{about}.png")
-        pictures.append({"file": f"growth/{about}.png", "title": TITLES[about], "words": words(rows, about)})
+            paths = narrow.save_both(picture(plt, [r for r in rows if r.about == about], about),
+                                     folder / "growth" / f"{about}.png")
+        pictures.append(html.picture(*paths, "growth/", title=TITLES[about], words=words(rows, about)))
     return html.write(folder / "growth.html", "growth.html", pictures=pictures, machine=caption(),
                       case=case.name, full=full, **around)
 

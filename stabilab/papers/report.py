@@ -23,7 +23,7 @@ from ..orbit.result import OUTCOMES, Fate
 from ..packages import demand
 from ..physics.equations import derive
 from ..physics.scene import PARTS, Scene, torque_axis
-from ..show import manifest, style
+from ..show import manifest, narrow, style
 from ..show import precision as precision_page
 from ..show.report import html, own
 from ..show.report.html import picture
@@ -126,10 +126,11 @@ def section(name: str, folder: Path) -> dict:
 def drawn(row, folder: Path) -> dict:
     """What a page says of a figure, whose pictures are drawn into `folder`/figures; rows, claims: of the
     audit, see `index.of_figure`; cases: of `index.cases_of`."""
-    path, *more = catalogue.write([row.number], folder / FOLDER, paper_name=row.paper or None)
-    return picture(path, FOLDER, id=f"{row.paper or 'figure'}-{row.number}", number=row.number,
-                   title=row.title, caption=row.caption, tolerance=row.tolerance, differences=words(row),
-                   command=row.command, rows=(), claims=(), cases=(),
+    path, *more = catalogue.write([row.number], folder / FOLDER, paper_name=row.paper or None,
+                                     telephone=True)
+    return picture(path, narrow.beside(path), FOLDER, id=f"{row.paper or 'figure'}-{row.number}",
+                   number=row.number, title=row.title, caption=row.caption, tolerance=row.tolerance,
+                   differences=words(row), command=row.command, rows=(), claims=(), cases=(),
                    more=[FOLDER + part.name for part in more])
 
 
@@ -166,9 +167,9 @@ def _sensible(chapter, folder):
     result = compare(case, np.linspace(0.0, chapter.sensible_end, TIMES))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
-        path = style.save(cost_text.picture(plt, case, runs, chapter.parts, units=SI),
-                          folder / FOLDER / f"{chapter.paper}-sensible.png")
-    return picture(path, FOLDER, case=case.name, title=written(case.title), why=written(chapter.note),
+        paths = narrow.save_both(cost_text.picture(plt, case, runs, chapter.parts, units=SI),
+                                 folder / FOLDER / f"{chapter.paper}-sensible.png")
+    return picture(*paths, FOLDER, case=case.name, title=written(case.title), why=written(chapter.note),
                    end=chapter.sensible_end, rows=_errors(case, None, result), parameters=_parameters(case),
                    path=f"cases/{case.name}.toml")
 
@@ -232,7 +233,8 @@ def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
     index.hard_cases(folder, nav=nav, here="hard-cases.html")
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
-                   pictures=[(file, text) for file, text in COST_PICTURES if (folder / file).exists()],
+                   pictures=[html.picture(path, narrow.beside(path), f"{Path(file).parent}/", words=text)
+                             for file, text in COST_PICTURES for path in [folder / file] if path.exists()],
                    here="cost.html")
     _start(cases, folder, result, nav, groups, audit, tools, cost, around)
     return [(value["beyond"], value["open"]) for name, value in result.items() if name.startswith("case ")]
@@ -316,7 +318,7 @@ def _cases(cases, folder, result, nav, around):
         own.write(built, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
                   **own.of_one(built, around))
         row = own.listed(stem, built)
-        rows["" if "sweep" in built else row["look"]].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
+        rows["" if "sweep" in built else row["look"]].append(row)
     groups = [{"title": title, "rows": rows[look]} for look, title in LOOKS.items() if rows[look]]
     html.write(folder / "cases.html", "list.html", title="Cases by outcome", groups=groups, nav=nav,
                here="cases.html", **around)
@@ -413,6 +415,16 @@ def _edge(cases, result) -> tuple[str, str] | None:
     return None
 
 
+def _examples(cases, result) -> list[dict]:
+    """A card for the first case of every group that has a picture."""
+    rows: dict[str, dict] = {}
+    for stem, members in own.entries(cases):
+        row = own.listed(stem, result[f"case {stem}"])
+        if row["thumbnail"]:
+            rows.setdefault(group(members[0]), row)
+    return [rows[title] for title, _ in GROUPS if title in rows]
+
+
 def _questions(cases, result, hero, audit, cost) -> list[dict]:
     """(question, its answer, where more of it stands) of what the report answers."""
     edge = _edge(cases, result)
@@ -448,7 +460,8 @@ def _start(cases, folder, out, nav, groups, audit, tools, cost, around):
     cards = [page | {"words": text[page["file"]]} for page in nav if page["file"] != "index.html"]
     picture = out.get(f"figure {FINEST}") or out[f"figure {catalogue.FIGURES[0].number}"]
     html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
-               hero=hero, questions=_questions(cases, out, hero, audit, cost), here="index.html", **around)
+               hero=hero, examples=_examples(cases, out),
+               questions=_questions(cases, out, hero, audit, cost), here="index.html", **around)
 
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")

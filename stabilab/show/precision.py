@@ -15,7 +15,7 @@ from ..files import write_text
 from ..packages import demand
 from ..physics.equations import derive
 from ..processes import machine, versions
-from . import endings, limiting, precision_overview, style
+from . import endings, limiting, narrow, precision_overview, style
 from .report import html
 from .terminal import RAISED, written
 from .text.cost import (
@@ -325,7 +325,7 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
     drawn = [section for section in sections if section["picture"]]
     first = next((section for section in drawn if section["name"] == FIRST), drawn[0] if drawn else None)
     return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, first=first,
-                      opening=first and OVERVIEW, machine=caption(), priced=DOUBLES, **around)
+                      machine=caption(), priced=DOUBLES, **around)
 
 
 def kind(case) -> tuple:
@@ -344,14 +344,17 @@ def _section(case, folder, effort, opens):
         return None, str(error)
     if not result.questions:
         return None, result.reference.because
-    picture = None
+    drawn = opening = None
     if effort == "brief":
         if case.name == FIRST or opens:
-            precision_overview.write(result, folder / OVERVIEW)
-        picture = f"precision/{write(result, folder / 'precision' / f'{case.name}.png').name}"
+            opening = html.picture(*precision_overview.write_both(result, folder / OVERVIEW), "precision/")
+        with style.drawing() as plt:
+            drawn = html.picture(*narrow.save_both(picture(plt, result),
+                                                   folder / "precision" / f"{case.name}.png"), "precision/")
     write(result, folder / "precision" / f"{case.name}.csv")
     rows = {row["digits"]: row for row in by_digits(result)}
-    return {"name": case.name, "title": case.title or case.name, "words": words(result), "picture": picture,
+    return {"name": case.name, "title": case.title or case.name, "words": words(result), "picture": drawn,
+            "opening": opening,
             "csv": f"precision/{case.name}.csv", "flat": flat(result), "times": len(result.reference.t),
             "command": f"stabilab precision {case.path}", "error": f"{result.reference.error.max():.0e}",
             "prices": [_price(rows.get(digits)) for digits in DOUBLES],

@@ -220,6 +220,17 @@ class Space:
                 | {branch.name: colour for colour, branch in self.branches})
 
 
+    def shape(self, text: str) -> str:
+        """How a key of the legend looks, so that it is told without its colour: "line", "dashed", "dot",
+        "square" or, of a surface, "area"."""
+        if text in {branch.name for _, branch in self.branches}:
+            return "area"
+        drawn = look(text)
+        if drawn.get("linestyle") == "none":
+            return "square" if drawn.get("marker") == "s" else "dot"
+        return "line" if drawn.get("linestyle", "-") == "-" else "dashed"
+
+
 MOTION, NEAREST, LIMIT = "this motion", "nearest point of the separatrix", "limit of |ω|"
 ASSUMED = f"assumed {LIMIT}"  # of a case that states none
 

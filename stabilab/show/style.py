@@ -135,15 +135,16 @@ _UNDATED = {".svg": {"Date": None, "Creator": None},
             ".pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
 
 
-def save(figure: Figure, path: Path | str, dpi: float | None = None) -> Path:
+def save(figure: Figure, path: Path | str, dpi: float | None = None, colours: int = 256) -> Path:
     """Write a picture in the format of its ending (.png, .svg, .pdf), whole or not at all, with no date or
-    version inside: the same picture gives the same bytes. A .png has 256 colours, which keeps a drawing well
-    under 200 kB. dpi: dots an inch, None for those of the house. Raises InputError for other endings."""
+    version inside: the same picture gives the same bytes. A .png has few colours, 256 unless others are
+    asked for, which keeps a drawing well under 200 kB. dpi: dots an inch, None for those of the house.
+    Raises InputError for other endings."""
     path = endings.file(path, endings.PICTURES)
     kind = endings.ending(path)
     with whole_file(path) as waiting:
         if kind == ".png":
-            _of_few_colours(_drawn(figure, dpi or DPI)).save(waiting, format="png", optimize=True)
+            _of_few_colours(_drawn(figure, dpi or DPI), colours).save(waiting, format="png")
         else:
             figure.savefig(waiting, format=kind[1:], dpi=dpi or DPI, metadata=_UNDATED[kind])
     return path
@@ -165,9 +166,9 @@ def _drawn(figure: Figure, dpi: float):
         figure.set_canvas(before[1])
 
 
-def _of_few_colours(image):
-    """A Pillow image in 256 colours, those of the house among them: stripes below it make them common, and
-    are cut off again."""
+def _of_few_colours(image, colours):
+    """A Pillow image in so many colours, those of the house among them: stripes below it make them common,
+    and are cut off again."""
     from PIL import Image
     ours = dict.fromkeys((BLACK, "#FFFFFF", GREY, BLUE, AMBER, VERMILION, *AXES, VIOLET, SAGE, WINE,
                           *SURFACES, *FILL.values(), AGAINST))
@@ -175,7 +176,7 @@ def _of_few_colours(image):
     tall.paste(image)
     for n, colour in enumerate(ours):
         tall.paste(colour, (0, image.height + 4 * n, image.width, image.height + 4 * n + 4))
-    return tall.quantize(256, dither=Image.Dither.NONE).crop((0, 0, *image.size))
+    return tall.quantize(colours, dither=Image.Dither.NONE).crop((0, 0, *image.size))
 
 
 def write(out, draw, dpi: float | None = None) -> Path:

@@ -401,11 +401,11 @@ def test_the_overview_has_at_most_five_curves_and_no_name_of_a_machine(measured,
     with style.drawing() as plt:
         figure = precision_overview.picture(plt, measured)
         ax, = figure.axes
-        texts = [text.get_text() for text in ax.texts]
+        texts = [text.get_text() for text in ax.texts if text.get_text()]  # without lines that lead to names
         assert {"1 ms", "1 s", *(precision_overview.CURVES[name][1] for name in curves)} == set(texts)
         assert len(ax.lines) == 2 * len(curves) - 1 + 2  # again and first, one point, two rules
-        printed = " ".join([*texts, figure.get_suptitle(), *(t.get_text() for t in figure.legends[0].texts)])
-        assert "30 digits" in figure.get_suptitle() and machine()["processor"] not in printed
+        printed = " ".join([*texts, ax.get_title(), *(t.get_text() for t in figure.legends[0].texts)])
+        assert "30 digits" in ax.get_title() and machine()["processor"] not in printed
     assert machine()["processor"] not in str(shown.meanings(measured))
     assert precision_overview.write(measured, tmp_path / "x.svg").stat().st_size > 1000
 

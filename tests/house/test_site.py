@@ -94,25 +94,31 @@ def test_every_case_stands_in_the_gallery_under_its_outcome_below_the_questions(
         folder.mkdir(exist_ok=True)
         (folder / f"{path.stem}.png").touch()
         return {"title": path.stem, "source": "", "scene": 0, "group": outcomes[len(path.stem) % 4],
-                "kind": "time", "answer": "none"}
+                "kind": "time", "answer": "none", "card": f"{path.stem}-card.png", "badge": "bounded",
+                "look": "bounded", "line": "none"}
 
     monkeypatch.setattr(gallery, "made", undrawn)
+    monkeypatch.setattr(gallery.cards, "draw", lambda about, case, path: path.touch())
     assert sorted(gallery.write(tmp_path)) == STEMS
     page = (tmp_path / "gallery.md").read_text(encoding="utf-8")
     titles = re.findall(r"^## \[(.*)\]\((.*)\)$", page, re.M)
     assert [title for title, _ in titles] == outcomes
     held = [name for _, path in titles
             for name in re.findall(r"^## (.*)$", (tmp_path / path).read_text(encoding="utf-8"), re.M)]
-    asked = re.findall(r'<a href="([\w-]+)\.html" ', page[:page.index(titles[0][0])])
+    asked = re.findall(r'<a href="([\w-]+)\.html">', page[:page.index(titles[0][0])])
     assert len(asked) == 5 and all((ROOT / f"docs/{guide}.md").exists() for guide in asked)
-    assert sorted(held) == STEMS and all(f'src="_images/{name}.png"' in page for name in held)
+    assert sorted(held) == STEMS and all(f'src="_static/{name}-card.png"' in page for name in held)
 
 
 def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_until_it_changes(
     tmp_path, monkeypatch):
     folder = tmp_path / gallery.FOLDER
     (minor,) = [path for path in CASES if path.stem == "minor-axis-100"]
+    monkeypatch.setattr(gallery.cards, "draw", lambda about, case, path: None)
     gallery.write(tmp_path, [minor])
+    card = (tmp_path / "gallery.md").read_text(encoding="utf-8")
+    assert '<b class="conditional">bounded on a condition</b><strong>Torque on the minor axis' in card
+    assert (folder / "cards" / "minor-axis-100-card.png").stat().st_size < 20_000
     page = (folder / "bounded-on-a-condition-or-undecided.md").read_text(encoding="utf-8")
     assert "BOUNDED only while the torque is exactly along x3" in page and minor.read_text(
         encoding="utf-8") in page
@@ -128,7 +134,7 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     drawn = []
     monkeypatch.setattr(gallery, "made", lambda path, folder: drawn.append(path)
                         or {"title": "", "source": "", "scene": 0, "group": "Bounded for ever", "kind": "",
-                            "answer": ""})
+                            "answer": "", "card": "", "badge": "", "look": "", "line": ""})
     gallery.write(tmp_path, [changed])
     assert drawn == [changed]
 

@@ -1,4 +1,5 @@
 """The report as a reader meets it: whole, from disk, without a network."""
+import base64
 import re
 import shutil
 import subprocess
@@ -137,13 +138,14 @@ def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_
     assert beyond == ("BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, "
                       "1.86 along the run, limit 1e-05")
     assert exceeded([(case, None), (case, replace(law, value=1e-6, holds=True))], SI) == ""
-    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "look": "bounded",
-                     "exceeded": "", "caveats": []}}
+    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "look": "bounded", "badge": "bounded",
+                     "thumbnail": None, "exceeded": "", "caveats": []}}
     assert own.listed("one", made)["beyond"] == ""
     rows = [own.listed("one", made), own.listed("two", {"case": made["case"] | {"exceeded": beyond}})]
     text = html.render("list.html", title="", groups=[{"title": "", "rows": rows}], extra=(), command="",
                        versions=())
     assert text.count('class="beyond"') == 1 and "limit 1e-05<" in text
+    assert text.count('<b class="badge bounded">bounded</b>') == 2 and "<strong>a &lt;b&gt;</strong>" in text
 
 
 @pytest.mark.parametrize("fate, strict, code",
@@ -340,6 +342,50 @@ def test_the_space_of_the_rates_draws_in_a_browser(tmp_path):
     share = hues @ hue / (np.linalg.norm(hues, axis=1) * np.linalg.norm(hue) + 1e-9)
     coloured = (share > 0.997) & (np.ptp(pixels, axis=1) > 40) & (pixels.min(axis=1) > 40)
     assert coloured.mean() > 0.001
+
+
+def test_cases_are_cards_with_a_picture_a_badge_and_one_line(several, everything):
+    from PIL import Image
+    for index, number in ((several[0], 3), (everything.parent / "cases.html", 1), (everything, 1)):
+        text = index.read_text(encoding="utf-8")
+        cards = re.findall(r'<li><a href="(cases/.*?)"><img src="(.*?)" width="240" height="135" .*?'
+                           r'<b class="badge (.*?)">(.*?)</b>.*?<span class="line">(.+?)</span>', text)
+        assert len(cards) == number, index
+        for page, picture, look, badge, line in cards:
+            assert (index.parent / page).exists() and badge and len(html_text(line)) <= 110
+            assert look in (*style.LOOK, "") and Image.open(index.parent / picture).size == (480, 270)
+
+
+def test_every_picture_of_a_page_has_a_narrow_one_for_telephones(several, alone):
+    from PIL import Image
+    for page in [*_pages(several[0]), alone]:
+        text = page.read_text(encoding="utf-8")
+        narrow = re.findall(r'<source media="\(max-width: 36rem\)" srcset="(.*?)" width="(\d+)" height="(\d+)">', text)
+        assert len(narrow) == text.count('<img class="drawn"') == text.count("</picture>")
+        for file, width, height in narrow:
+            assert Image.open(page.parent / file).size == (int(width), int(height)) and int(width) == 441
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
+@pytest.mark.parametrize("name", ["minor-axis-100", "geostationary-22n"])
+def test_a_case_prints_on_at_most_five_pages_with_its_first_picture_on_the_first(name, tmp_path):
+    """Of a page with everything that a page alone has; Chromium sets it on sheets of A4."""
+    from tests.browser import Browser
+    index = report.write([CASES / f"{name}.toml"], tmp_path / "report")
+    with Browser(tmp_path / "profile", 1000, 900) as browser:
+        browser.open(index.as_uri())
+        browser.until("document.readyState == 'complete'")
+        printed = base64.b64decode(browser.ask("Page.printToPDF", paperWidth=8.27, paperHeight=11.69)["data"])
+        assert 2 <= len(re.findall(rb"/Type\s*/Page\b", printed)) <= 5
+        browser.ask("Emulation.setEmulatedMedia", media="print")
+        browser.size(718, 1000)  # pixels of a sheet's width between margins of 12 mm
+        bottom, turns = browser.run("[document.querySelector('figure img').getBoundingClientRect().bottom, "
+                                    "document.body.innerText.includes('Drag to turn')]")
+        assert bottom < 1030 and not turns  # of 1031 of a sheet's height
+        cut = browser.run("[...document.querySelectorAll('math[display=block]')].filter(one => "
+                          "one.getBoundingClientRect().width && one.scrollWidth > one.clientWidth + 1).length")
+        assert cut == 0
 
 
 @pytest.mark.slow

@@ -20,13 +20,14 @@ SLOW = {"attitude", "budget", "section", "tilt", "wheel"}  # kinds of plot that 
 
 def of_page(path: Path) -> dict:
     """Every word and formula of the page of a case; pictures are named and not drawn."""
-    write_all, picture = one_case.to_file.write_all, one_case.picture
+    write_all, picture, card = one_case.to_file.write_all, one_case.picture, one_case.thumbnail.write
+    one_case.thumbnail.write = lambda items, target: target
     one_case.to_file.write_all = lambda one, target, *given, **named: [target]
     one_case.picture = lambda made, *given, **words: words
     try:
         made = one_case.sections(stabilab.load(path), Path(), path.stem)
     finally:
-        one_case.to_file.write_all, one_case.picture = write_all, picture
+        one_case.to_file.write_all, one_case.picture, one_case.thumbnail.write = write_all, picture, card
     return ({name: made[name] for name in PARTS} | {"space": _of_space(made["space"])}
             | ({"percentiles": made["percentiles"]} if made["percentiles"] else {})
             | {name: made["equations"][name] for name in ("equations", "parameters")}

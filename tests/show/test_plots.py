@@ -249,18 +249,6 @@ angular_velocity = [0, 0, {0.28 * size}]
     assert 0.5 < np.ptp(motion.get_xdata()) / (high - low) < 0.9
 
 
-def test_the_picture_for_a_telephone_has_no_title_and_a_legend_within_its_width(tmp_path):
-    from PIL import Image
-    to_file.write(load("geostationary-22n"), tmp_path / "wide.png", narrow=tmp_path / "narrow.png")
-    with Image.open(tmp_path / "wide.png") as wide, Image.open(tmp_path / "narrow.png") as narrow:
-        assert narrow.width < 0.65 * wide.width
-        grey = np.asarray(narrow.convert("L"))
-    assert grey[:, -2:].min() > 200 and grey[:, :2].min() > 200
-    ax = to_file.narrowed(stabilab.plot.time(load("geostationary-22n")).figure).axes[0]
-    assert ax.get_title() == "" and [text.get_text() for text in ax.figure.legends[0].get_texts()][0] == r"$|\omega|$"
-    plt.close("all")
-
-
 def test_a_bounded_motion_lies_in_its_phase_plane_whole():
     """That of uncertain-separatrix swings to 95 % of the way to a saddle on one side, and farther than a turn
     and a third from the middle on the other."""

@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from ...errors import InputError
-from ...show import style
+from ...show import narrow, style
 from ...theories.printed.claims import figures_of
 from ...version import __version__
 from .. import table
@@ -135,18 +135,25 @@ def chosen(numbers=None, paper_name: str | None = None) -> list[Figure]:
     return [row for name in ([paper_name] if paper_name else PAPERS) for row in of_paper(name)]
 
 
-def write(numbers=None, out="figures", progress=None, paper_name: str | None = None) -> list[Path]:
+def write(numbers=None, out="figures", progress=None, paper_name: str | None = None,
+          telephone: bool = False) -> list[Path]:
     """Draw figures into the folder `out`: figure-NN.png (charged-NN.png, ... for the other papers), of more
     than six panels also figure-NN-2.png, ..., and beside it a text with the caption, command, version and
-    tolerance; which: see `chosen`. progress(words) is called before each. Returns the pictures' paths."""
-    return [path for row in chosen(numbers, paper_name) for path in _write(row, Path(out), progress)]
+    tolerance; which: see `chosen`. progress(words) is called before each. telephone: also
+    the first picture of each as a telephone shows it (`show.narrow`). Returns the pictures' paths, but for
+    these."""
+    return [path for row in chosen(numbers, paper_name)
+            for path in _write(row, Path(out), progress, telephone)]
 
 
-def _write(row, out, progress):
+def _write(row, out, progress, telephone):
     if progress:
         progress(f"figure {row.number}{f' ({row.paper})' if row.paper else ''}")
     with style.drawing() as plt:
-        paths = [style.save(drawn, out / name) for name, drawn in row.pictures(plt).items()]
+        pictures = row.pictures(plt)
+        paths = [style.save(drawn, out / name) for name, drawn in pictures.items()]
+        if telephone:
+            narrow.save(pictures[row.file], narrow.beside(out / row.file))
     apart = [f"printed curve against exact motion, largest difference at equal times: {line}"
              for line in words(row)]
     with style.whole_file(paths[0].with_suffix(".txt")) as waiting:

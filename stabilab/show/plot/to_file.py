@@ -10,6 +10,7 @@ from typing import Any
 from ...errors import InputError
 from ...packages import demand
 from .. import endings, style
+from .. import narrow as narrow_pictures
 from ..picture_kinds import KINDS
 from . import subject as subjects
 from .subject import Subject, subject
@@ -17,7 +18,6 @@ from .turning import ENDINGS
 
 LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch
 PIXELS = 20_000  # of a side: what Matplotlib draws
-TELEPHONE = (4.6, 4.4)  # inches: letters of 8.5 points have 9.5 px where the picture has 370
 
 
 def _drawing(kind: str) -> Callable[..., Any]:
@@ -45,7 +45,7 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
     kind: one of `KINDS`; None: the one that says most of the case. size: (width, height) in inches;
     dpi: dots an inch of a .png. units: "deg" or "si", None for those of the case. span: in place of the
     case's own. neighbours: of a section, how many motions are shown beside it, None for six. narrow: a file
-    for the same picture as a telephone shows it, without its title, of kind "time".
+    for the first picture as a telephone shows it (`show.narrow`).
     titled: False leaves the title of a plot to the page. The same input gives the
     same bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where
     the case has no such plot: it names those that there are.
@@ -71,23 +71,10 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
         files = [style.save(figure, endings.numbered(path, n), dpi)
                  for n, figure in enumerate(figures, 1)]
         if narrow is not None:
-            style.save(narrowed(figures[0]), narrow, dpi)
+            ax = figures[0].axes[0]
+            ax.set_title(ax.get_title().partition("\n")[2])  # without the heading of the case: a page has it
+            narrow_pictures.save(figures[0], Path(narrow))
         return files
-
-
-def narrowed(figure: Any) -> Any:
-    """The figure of one plot, changed: so narrow that its letters have 9 px on a telephone, its title left to
-    the page."""
-    (ax,) = figure.axes
-    ax.set_title("")
-    figure.set_size_inches(*TELEPHONE)
-    for legend in list(figure.legends):
-        names = [text.get_text() for text in legend.get_texts()]
-        notes = " ".join(legend.get_title().get_text().split("\n"))
-        legend.remove()
-        style.below(figure, legend.legend_handles, names, notes=notes and style.clauses(
-            notes, figure.get_figwidth(), style.RC["legend.fontsize"] * style.share()))
-    return figure
 
 
 def checked(path: str | Path, item: Subject, kind: str | None) -> str:

@@ -100,13 +100,14 @@ def css(fate: str) -> str:
     return {"stable": "bounded", "asymptotically stable": "bounded", "unstable": "spin-up"}.get(fate, fate)
 
 
-def picture(path: Path, folder: str = "", narrow: Path | None = None, /, **text) -> dict:
+def picture(path: Path, narrow: Path | None = None, folder: str = "", /, **text) -> dict:
     """What a page says of a picture: its name within a folder, and its size in pixels, so that the page does
-    not jump while it loads; narrow: the same one for a telephone."""
+    not jump while it loads; narrow: the same one for a telephone (`show.narrow`)."""
     from PIL import Image
     with Image.open(path) as image:
         size = list(image.size)
-    return {"file": folder + path.name, "size": size, "narrow": narrow and picture(narrow, folder), **text}
+    return {"file": folder + path.name, "size": size, **text,
+            "narrow": narrow and picture(narrow, None, folder)}
 
 
 def render(template: str, **values) -> str:

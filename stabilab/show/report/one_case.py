@@ -26,10 +26,10 @@ from ...maps.percentiles import of_case_drawn
 from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
-from .. import certification, frame, limiting, style
+from .. import certification, frame, limiting, narrow, style
 from ..picture_kinds import KINDS
 from ..plot import subject as subjects
-from ..plot import to_file
+from ..plot import thumbnail, to_file
 from ..plot.histogram import SEED, is_known
 from ..plot.in_space import space_of
 from ..plot.over_time import file_axes
@@ -38,6 +38,7 @@ from ..plot.subject import subject
 from ..space import data
 from ..terminal import printed, some
 from ..text import percentiles
+from ..text.badge import badge
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
 from ..text.motion import circular_orbit_text, constants, margins, orbit_headline, shown, state
@@ -58,6 +59,7 @@ def space(item, at_rest, units) -> dict:
     drawn = data(result, lambda places: b64encode(places).decode("ascii"))
     reason = "; ".join(filter(None, (result.caption, result.part)))
     return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.axes.sentence(reason)),
+            "shapes": {text: result.shape(text) for text in result.legend},
             "clipped": any(max(map(abs, result.box.share(at))) > 1 + 1e-9 for _, branch in result.branches
                            for at in branch.points)}
 
@@ -90,11 +92,11 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
                 caption = OF_THE_FILE
             if kind == "time":
                 caption += _later(item)
-            narrow = None if result or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
-            made, *more = to_file.write_all(item, folder / f"{stem}-{kind}.png", kind, page.size,
-                                            units=units, narrow=narrow, titled=page.titled)
-            result.append(picture(made, "", narrow, caption=caption, kind=kind, title=title, place=page.place,
-                                 more=[path.name for path in more],
+            path = folder / f"{stem}-{kind}.png"
+            made, *more = to_file.write_all(item, path, kind, page.size, units=units,
+                                            narrow=narrow.beside(path), titled=page.titled)
+            result.append(picture(made, narrow.beside(path), caption=caption, kind=kind, title=title,
+                                 place=page.place, more=[path.name for path in more],
                                  command=f"stabilab plot {item.path} --kind {kind}"))
     return result
 
@@ -108,7 +110,32 @@ def small_body(item, folder: Path, stem: str, units: str) -> dict | None:
         return None
     path, *_ = to_file.write_all(item, folder / f"{stem}-small.png", "body", SMALL_BODY, units=units,
                                  titled=False)
-    return picture(path, "", None)
+    return picture(path)
+
+
+def card_of(cases, folder: Path) -> dict:
+    """What a card says of a case, or of all combinations of a file, its picture drawn into the folder: card
+    (its file, or empty), badge, look and line."""
+    answered = [(case, _answer(case)[0]) for case in cases]
+    moved = [(case, result) for case, result in answered if result is not None]
+    if not moved:
+        return {"card": "", "badge": "", "look": "", "line": ""}
+    looks, badges = {look(result) for _, result in moved}, {badge(result) for _, result in moved}
+    made = _thumbnail([(replace(subject(case), known=result), look(result)) for case, result in moved],
+                      folder, cases[0].name.removesuffix(cases[0].variant))
+    units = units_of(cases[0])
+    first = two_lines(*moved[0], units)[0] if len(cases) == 1 else fates([one for _, one in moved], units)
+    return {"card": made["file"] if made else "", "look": looks.pop() if len(looks) == 1 else "",
+            "badge": badges.pop() if len(badges) == 1 else some(len(cases), "combination"),
+            "line": printed(first)}
+
+
+def _thumbnail(items, folder: Path, stem: str) -> dict | None:
+    """The picture of a card, of motions with their looks; None where one cannot be followed."""
+    try:
+        return picture(thumbnail.write(items, folder / f"{stem}-card.png"))
+    except StabilabError:
+        return None
 
 
 def _later(item) -> str:
@@ -164,6 +191,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "caveats": list(map(printed, caveats)),
             "fate": "" if moved is None else "undecided" if open_fate(box) else moved.fate.word,
             "look": "" if moved is None else "conditional" if open_fate(box) else look(moved),
+            "badge": badge(moved, open_fate(box)), "thumbnail": None,
             "tiles": [], "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None,
             "certificate": None,
             "equilibria": result and equilibrium_table(result, units),
@@ -176,6 +204,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(item, folder, stem, deep,
                                                     "deg" if units.scaled else units.name, result)) or [])
+        page["thumbnail"] = _thumbnail([(item, page["look"])], folder, stem)
         missing: dict[str, list[str]] = {}  # titles by their reason
         for kind, about in SHOWN.items():
             if kind == "histogram" and not case.uncertain:  # a case without such numbers lacks nothing
@@ -219,6 +248,7 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         around = circular_orbit(full)
         line, text = orbit_headline(around.equilibria), circular_orbit_text(case, around, units)
         fate = looks = ""
+    marked = fate and (fate if fate == "undecided" else badge(answer.closed.motion))
     every = deep or not burning
     drawn = _tried(absent, "Pictures", lambda: pictures(item, folder, stem, every, units.name)) or []
     own = SPECIAL["burn" if burning else "orbit"]
@@ -231,11 +261,12 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
     absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
     caveats = limiting.beside(item.caveats, units, line)
-    return dict.fromkeys(("law", "exceeded", "over", "uncertain", "sensitivity", "certificate", "equilibria",
-                          "equations", "space"), "") | {
+    return dict.fromkeys(("law", "exceeded", "over", "uncertain", "percentiles", "sensitivity",
+                          "certificate", "equilibria", "equations", "space"), "") | {
         "name": case.name, "title": case.heading, "source": case.source, "path": case.path,
         "text": case.text, "headline": printed(line), "first": printed(line), "small": "",
-        "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "tiles": [], "facts": [],
+        "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "badge": marked,
+        "tiles": [], "facts": [],
         "extremes": [], "pictures": drawn, "answer": printed(text),
         "absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
 
@@ -346,6 +377,10 @@ def sections_of_sweep(cases, folder: Path, stem: str) -> dict:
             "keys": [with_unit(label.replace("_", " "), unit) for key in keys for label, unit, _ in key],
             "equations": _equations(first),
             "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
+            "thumbnail": _thumbnail([(replace(subject(case), known=result), look(result))
+                                     for case, result in moved], folder, stem) if moved else None,
+            "badge": badge(motions[0]) if len({badge(of) for of in motions}) == 1
+            else some(len(rows), "combination"),
             "headline": of_all_combinations(len(motions), answers[0]) if motions and not without
             else f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
             "look": visited.pop() if len(visited) == 1 else "",
@@ -388,7 +423,7 @@ def _picture(moved, keys, cases, units, path):
         ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ",
                ylabel=with_unit(f"|{letter}|", unit))
         style.legend(figure, list(_legend(keys, cases)), columns=3)
-        return html.picture(style.save(figure, path),
+        return html.picture(*narrow.save_both(figure, path),
                             caption=f"The size of the rates, |{letter}|, of every combination.")
 
 

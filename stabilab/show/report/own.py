@@ -104,10 +104,12 @@ def of_one(made, around) -> dict:
 
 
 def listed(stem, built) -> dict:
-    """The row of an entry in a list of pages."""
+    """The card of an entry in a list of pages."""
     result = built.get("sweep") or built["case"]
-    return {"file": f"{stem}.html", "name": stem, "title": result["title"], "headline": result["headline"],
-            "look": result["look"],
+    return {"file": f"{FOLDER}/{stem}.html", "folder": f"{FOLDER}/", "name": stem, "title": result["title"],
+            "headline": result["headline"], "line": result.get("first") or result["headline"],
+            "look": result["look"], "badge": result.get("badge", ""),
+            "thumbnail": result.get("thumbnail"),
             # by how much; why that matters stands on the page
             "beyond": " ".join(filter(None, [result["exceeded"], *result["caveats"]]))}
 
@@ -124,8 +126,7 @@ def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> 
     for (stem, _), built in zip(rows, result):
         write(built, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", below="index.html",
               **of_one(built, around))
-    listing = [row | {"file": f"{FOLDER}/{row['file']}"} for (stem, _),
-               product in zip(rows, result) for row in [listed(stem, product)]]
+    listing = [listed(stem, product) for (stem, _), product in zip(rows, result)]
     html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases",
                groups=[{"title": "", "rows": listing}], **around)
     return [(product["beyond"], product["open"]) for product in result]

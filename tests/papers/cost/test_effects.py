@@ -2,6 +2,8 @@
 bit."""
 import inspect
 import json
+import re
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -65,6 +67,7 @@ FAULTY = {  # the same, wrong in a way that its strength does not excuse
     "damper_wheel": "inertia = 0.1\ncoefficient = 0.1\naxis = [0, 0, 0]",
     "rate_damper": "coefficient = [0, 0]", "eddy_currents": "coefficient = 0\nfield = -1",
     "wheel_motor": "torque = [0, 0, 0]\nduration = 0"}
+DOCS = Path(__file__).parents[3] / "docs"
 CASE = """[body]
 inertia = [3, 2, 1.5]
 mass = 10
@@ -75,6 +78,27 @@ span = [0, 5]
 """
 BASE = {"gyrostat": "[effects.gyrostat]\nmomentum = [0.4, 0, 0]\n",
         "constant_torque": "[effects.constant_torque]\ntorque = [0, 0, 0.2]\n"}
+
+
+def counts_of_the_page():
+    page = (DOCS / "cost.md").read_text(encoding="utf-8")
+    return {name: (int(states), int(operations)) for name, states, operations
+            in re.findall(r"^\| `(\w+)` \| (\d+) \| (\d+) \|$", page, re.M)}
+
+
+def test_the_page_on_cost_has_every_effect_with_the_states_that_it_adds():
+    rows = counts_of_the_page()
+    assert {name: states for name, (states, _) in rows.items()} == {
+        name: states - 3 for name, (states, _) in ALONE.items()}  # by hand
+    assert all(rows[name][1] == ADDED[name] for name in ("constant_torque", "gyrostat", "resistance"))
+
+
+@pytest.mark.slow
+def test_the_page_on_cost_has_the_operations_of_every_effect():
+    body = counted("", Scene(BODY))
+    assert body.operations == ADDED["body alone"]
+    assert {name: operations for name, (_, operations) in counts_of_the_page().items()} == {
+        name: counted(name, scene).operations - body.operations for name, scene in alone()}
 
 
 def test_every_effect_has_an_example():
