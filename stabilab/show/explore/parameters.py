@@ -43,8 +43,8 @@ def groups(case: Case, units: Units) -> list[dict[str, Any]]:
                       *_around(abs(size) or _usual_torque(case))),
               slider("tilt", "tilt off it", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
               slider("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
-    if off_axes(case):  # about axes that the user did not write an angle would say little
-        axis, torque = 0, _in_file(case, units)
+    if own := off_axes(case):  # about axes that the user did not write an angle would say little
+        axis, torque = 0, _in_file(case, own, units)
     result = [("Torque along" if axis else "Torque, axes of the file", axis or None, torque),
              ("Wheel and moments" if units.scaled else "Wheel momentum about axis", None, _wheel(case)),
              ("Rates at the start", None, _start(case, units)),
@@ -62,13 +62,13 @@ def vector(case: Case, name: str) -> tuple[float, ...]:
     return tuple(map(float, scene.vector("constant_torque" if name == "torque" else "gyrostat")))
 
 
-def off_axes(case: Case) -> bool:
-    """Whether a body's torque is off its principal axes, so that it is set by its components in the file."""
-    return isinstance(case.scene, Scene) and sum(v != 0 for v in case.scene.vector("constant_torque")) > 1
+def off_axes(case: Case) -> tuple[Any, ...]:
+    """A body's torque off its principal axes, which is set by its components in the file; () of any other."""
+    own = case.scene.vector("constant_torque") if isinstance(case.scene, Scene) else ()
+    return tuple(own) if sum(v != 0 for v in own) > 1 else ()
 
 
-def _in_file(case: Case, units: Units) -> list[dict[str, Any]]:
-    own = case.scene.vector("constant_torque")
+def _in_file(case: Case, own: tuple[Any, ...], units: Units) -> list[dict[str, Any]]:
     values = tuple(map(float, own if case.frame is None else case.frame.back(own)))
     low, high = _around(max(map(abs, values)))
     return [slider(f"torque{n}", letter, units.of("N m")[0], value, low, high)

@@ -91,9 +91,10 @@ def json(result: TopDiagram) -> str:
 def csv(result: TopDiagram) -> str:
     """A line for each state at values over the range: lean in rad, rate of precession in rad/s."""
     caveats = cell(of_case(result.case))
-    return csv_lines([["value", "family", "verdict", "lean", "rate", "caveats"],
-                      *([value, state.family, _word(state.stable), state.lean, state.rate, caveats]
-                        for value, states in sampled(result) for state in states)])
+    rows: list[list[float | str]] = [
+        [value, state.family, _word(state.stable), state.lean, state.rate, caveats]
+        for value, states in sampled(result) for state in states]
+    return csv_lines([["value", "family", "verdict", "lean", "rate", "caveats"], *rows])
 
 
 def write(result: TopDiagram, out: str | Path) -> Path:

@@ -76,7 +76,7 @@ def legend(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool,
     """What the looks mean, rows of (name, look): below a figure of its own, with notes above them; inside
     axes that were given."""
     if own and (rows or notes):
-        style.legend(ax.figure, rows, notes=fitted(notes, ax.figure.get_figwidth()))
+        style.legend(ax.figure, rows, notes=fitted(notes, ax.figure.bbox.width / ax.figure.dpi))
     elif rows:
         ax.legend(*style.explained(rows), loc="best", fontsize="small")
 

@@ -426,8 +426,7 @@ def _path(item: Subject, clock: Clock) -> tuple[list[Any], str, Long | None]:
     period = item.motion.period
     low, high = item.seen
     t, omega = path(item, low, low + period if period else high)
-    reached = item.assumed and item.assumed.time
-    near = len(near_part(t.tolist(), omega.tolist(), item.motion, reached))
+    near = len(near_part(t.tolist(), omega.tolist(), item.motion, item.assumed_time))
     t, omega = t[:near], omega[:near]
     resolved = long(item, t, omega, clock)
     if resolved is not None and resolved[0].skins:

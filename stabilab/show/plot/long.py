@@ -49,7 +49,7 @@ def long(item: Subject, t: np.ndarray, omega: np.ndarray, clock: Clock) -> tuple
     edges = _edges(t, omega, rows_of(number))
     windows = [(a, min(high, a + min(max(b - a, APIECE * turn(a)), TURNS * turn(a))))
                for a, b in zip(edges[:-1], edges[1:])]
-    matters = moment(item.motion, item.assumed and item.assumed.time)
+    matters = moment(item.motion, item.assumed_time)
     bold = bold_turns(low, high, turn, clock(max(abs(low), abs(high))), matters)
     places = []
     times = [np.linspace(a, b, 1 + max(FINE, round(FINE * (b - a) / turn(a)))) for a, b in windows]
@@ -92,7 +92,7 @@ def exactly(band: tuple[Grid, ...], item: Subject, low: float, high: float,
 def until(item: Subject, end: float, clock: Clock) -> tuple[Long, list[list[float]]] | None:
     """The same of a motion from time 0 to an end, as far as it is drawn, where it has a band."""
     t, omega = path(item, 0.0, end)
-    near = len(near_part(t.tolist(), omega.tolist(), item.motion, item.assumed and item.assumed.time))
+    near = len(near_part(t.tolist(), omega.tolist(), item.motion, item.assumed_time))
     result = long(item, t[:near], omega[:near], clock)
     return None if result is None or not result[0].skins else (result[0], result[1].tolist())
 

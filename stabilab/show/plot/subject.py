@@ -133,13 +133,18 @@ class Subject:
     def seen(self) -> tuple[float, ...]:
         """(from, to): the span that its pictures show, in the scene's time."""
         return self.asked or space.seen(self.span, self.motion, space.natural(self.scene, self.state),
-                                        None if self.assumed is None else self.assumed.time)
+                                        self.assumed_time)
 
     @cached_property
     def assumed(self) -> Assumed | None:
         """The limit to which pictures are drawn where the case states none."""
         return assumed(self.case, self.scene, self.state, None if self.state is None else self.motion,
                        time_to)
+
+    @property
+    def assumed_time(self) -> float | None:
+        """When the assumed limit is reached."""
+        return None if self.assumed is None else self.assumed.time
 
 
 def subject(source: Any, state: Any = None, span: Any = None) -> Subject:

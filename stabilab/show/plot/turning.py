@@ -119,7 +119,7 @@ def turn(item: Subject, frames: int = FRAMES, limit: Assumed | None = None) -> T
     if not 2 <= frames <= 5000:
         raise InputError(f"frames: expected 2 to 5000, got {frames!r:.40}")
     low, high = item.seen
-    matters = moment(item.motion, limit and limit.time)
+    matters = moment(item.motion, None if limit is None else limit.time)
     matters = matters if matters is not None and low < matters[0] < high else None
     (t, rotations, omega), even = _paced(item, low, high, frames, matters and matters[0])
     full = abs(t[-1] - high) <= 1e-9 * abs(high - low)
