@@ -13,10 +13,10 @@ from ..answers.stuck.chain import simulate_burn
 from ..case.read import Case, blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError
 from ..show import endings, terminal
-from ..show import reference as shown
 from ..show.data import as_json
 from ..show.terminal import say
 from ..show.text import headline, simulation
+from ..show.text import reference as shown
 from ..show.text.aem import epoch_of
 from ..theories.euler_angles import with_euler_angles
 from ..theories.follow import follow

@@ -17,7 +17,7 @@ from stabilab.answers.tabulated import PROVED, TWICE, tabulated
 from stabilab.case.read import load
 from stabilab.errors import InputError
 from stabilab.numbers.balls import working
-from stabilab.show.reference import decimal, within, written
+from stabilab.show.text.reference import decimal, within, written
 from tests.oracles import taylor
 from tests.oracles.pairs import physical
 from tests.shared import CASES

@@ -9,20 +9,20 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..answers.caveats import limited
-from ..answers.certificate import subject
-from ..answers.digits import ask
-from ..answers.motion import motion
-from ..answers.tabulated import Tabulated, tabulated
-from ..errors import key
-from ..files import write_text
-from ..numbers.balls import working
-from ..physics.coefficients import effective
-from . import endings, manifest
-from .data import as_json, csv_lines
+from ...answers.caveats import limited
+from ...answers.certificate import subject
+from ...answers.digits import ask
+from ...answers.motion import motion
+from ...answers.tabulated import Tabulated, tabulated
+from ...errors import key
+from ...files import write_text
+from ...numbers.balls import working
+from ...physics.coefficients import effective
+from .. import endings, manifest
+from ..data import as_json, csv_lines
 
 if TYPE_CHECKING:
-    from ..case.read import Case
+    from ...case.read import Case
 
 REFERENCE_SCHEMA = "stabilab.reference/1"
 VERSIONS = ("python", "python-flint")
