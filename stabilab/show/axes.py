@@ -62,6 +62,11 @@ class Axes:
         return (f"{letter} ({word} axis)" if letter and word else letter
                 or f"the {word} axis, {self.direction(number)}{IN_FILE}")
 
+    def rank_clause(self, number: int) -> str:
+        """Which one an axis with a letter is, a clause: "z is the minor axis"; empty where that is not said."""
+        letter, word = self.letters[number - 1], self.ranks[number - 1]
+        return f"{letter} is the {word} axis" if number and letter and word else ""
+
     def head(self, number: int) -> str:
         """In a first line: "z (minor axis)", or "the minor axis", whose direction `direction_clause` says."""
         letter = self.letters[number - 1]

@@ -66,6 +66,13 @@ def condition(caveats: Iterable[Caveat], units: Units, alone: bool = False, shor
                                       whole=None if short else True) for reason in rows)
 
 
+def axis_of_condition(caveats: Iterable[Caveat]) -> int:
+    """The axis that the torque of a verdict must lie along, 0 where a verdict rests on no such condition."""
+    rows = [item.reason.quantities["condition"] for item in caveats
+            if item.kind is Kind.TILT and item.reason.sentence is HOLDS]
+    return next((row.quantities["axis"].number for row in rows if "axis" in row.quantities), 0)
+
+
 def _unheld(reason: Reason, short: bool = False) -> Reason:
     """What follows "holds", with its clauses. short: as of `condition`."""
     held = reason.quantities["condition"]

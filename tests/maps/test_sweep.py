@@ -299,7 +299,8 @@ def test_a_new_column_is_one_row_of_the_table(monkeypatch, name, key):
     """Of a scene with arrays, and of one whose states are answered one by one."""
     row = columns.Column("turns", "i1", "", "whether it turns about axis 3",
                          lambda rows: rows.states[:, 2] > 0, lambda motion: motion.at[2] > 0)
-    monkeypatch.setitem(columns.ANSWERS, "turns", columns.Answer("motions", (0, 0), (row,)))
+    for table in (columns.ANSWERS, columns.ALL):  # of burns too
+        monkeypatch.setitem(table, "turns", columns.Answer("motions", (0, 0), (row,)))
     found = swept(name, {key: "0:3:2"}, answer="turns,fate")
     assert found.records["turns"].tolist() == [0, 1]  # as the axis is written above
     assert "turns" in words.heads(found) and '"turns"' in words.json(found)

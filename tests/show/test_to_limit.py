@@ -100,7 +100,7 @@ def test_the_body_has_its_thrusters_at_their_arms_and_the_axes_of_its_file():
     for place, arm in zip(places, ((0.938, 0.888, -1.26), (-0.962, 0.888, -1.26)), strict=True):
         along = turn @ np.array(arm)
         assert place @ along == pytest.approx(np.linalg.norm(place) * np.linalg.norm(arm))
-    assert {"x", "y", "z", "major", "minor"} <= {text.get_text().strip() for text in ax.texts}
+    assert {"x", "y", "z", "1, major", "3, minor"} <= {text.get_text().strip() for text in ax.texts}
     names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
     assert "force of R3 on the body, 22 N, stuck" in names and "axes of the file" in names
 

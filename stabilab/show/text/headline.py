@@ -185,6 +185,9 @@ def two_lines(case: Case, motion: Motion, units: Units | None = None) -> tuple[s
         became, *rest = [rest[0].removeprefix("by that law: "), *rest[1:]]
     if became.lower().startswith(head.lower()):
         became = became[len(head):].lstrip(":, ")
+    full, brief = (limiting.condition(motion.caveats, units, True, short).strip() for short in (False, True))
+    if full and became == full and brief in large:  # of the same in more words the rank of the axis is new
+        became = units.axes.rank_clause(limiting.axis_of_condition(motion.caveats))
     clauses = [clause for clause in [became, *rest] if clause and not _in(clause, large)]
     for clause in clauses:  # whatever comes next, if it fits
         if (where or about or not limit) and clause in (cause(motion, units), largest(motion, units)):
