@@ -63,7 +63,7 @@ class Axes:
                 or f"the {word} axis, {self.direction(number)}{IN_FILE}")
 
     def rank_clause(self, number: int) -> str:
-        """Which one an axis with a letter is, a clause: "z is the minor axis"; empty where that is not said."""
+        """Which one an axis with a letter is, a clause: "z is the minor axis"; empty of others."""
         letter, word = self.letters[number - 1], self.ranks[number - 1]
         return f"{letter} is the {word} axis" if number and letter and word else ""
 

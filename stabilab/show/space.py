@@ -175,8 +175,8 @@ def shifted(ticks: list[float], name: str) -> tuple[list[float], str]:
     base = round((ticks[0] + ticks[-1]) / 2 / ten) * ten
     before, bracket, unit = name.partition(" (")
     sign = "\u2212" if base > 0 else "+"
-    (text,) = numbers([abs(base)])
-    return [round((v - base) / apart) * apart for v in ticks], f"{before} {sign} {text}{bracket}{unit}"
+    return ([round((v - base) / apart) * apart for v in ticks],
+            f"{before} {sign} {abs(base):.12g}{bracket}{unit}")
 
 
 def numbers(ticks: list[float]) -> list[str]:

@@ -7,6 +7,7 @@ import json
 import re
 from dataclasses import replace
 from html import escape, unescape
+from urllib.parse import unquote
 
 import pytest
 
@@ -81,6 +82,12 @@ def write_case(folder, name, stem=None, burns=False, more=""):
 def one_blank(text):
     """Columns are as wide as the names in them, and a long line is broken between its clauses."""
     return re.sub(r"\s+", " ", re.sub(r"\n(?:# )? *", "; ", text))
+
+
+def as_a_page(text):
+    """A page's list of pictures has names as addresses; how high a picture is depends on how its title is broken."""
+    text = re.sub(r'srcset="([^"]*)"', lambda found: f'srcset="{escape(unquote(found[1]))}"', text)
+    return re.sub(r'(?<=height=)"\d+"', '"0"', text)
 
 
 def same_but_for_names(told, name):
@@ -185,7 +192,7 @@ def test_pages_have_names_as_written(name, tmp_path, stabilab):
         folder = tmp_path / f"of {name}"
         code, _, err = stabilab("report", write_case(tmp_path, name), "--out", folder)
         assert code == 0, err
-        return "\n".join(path.read_text(encoding="utf-8") for path in sorted(folder.rglob("*.html"))
+        return as_a_page("\n".join(path.read_text(encoding="utf-8") for path in sorted(folder.rglob("*.html")))
                          ).replace(escape(name), name).replace("&#39;", "'")
     same_but_for_names(told, name)
 
