@@ -171,6 +171,24 @@ def loosened(form, path) -> str:
 
 KEYS = keys()
 NAMES = [f"{form}: {path[0]}.{path[-1]}" for form, path in KEYS]
+PARTS = 6  # of the keys of each form, in turn: a view by default or slowly sees one, and the long tests all
+
+
+def part(n: int) -> list[tuple]:
+    """(form, path, label) of one part of the keys, in which every form has one at least."""
+    forms = list(dict.fromkeys(form for form, _ in KEYS))
+    own = {form: [(*key, label) for key, label in zip(KEYS, NAMES) if key[0] == form] for form in forms}
+    return [row for form in forms for row in own[form][n % min(PARTS, len(own[form]))::PARTS]]
+
+
+def in_parts(rows: list, quick) -> list:
+    """Rows with parts: the nth row with the nth of them by default where it is quick, else slowly, the others in the
+    long tests."""
+    for n, row in enumerate(rows):
+        for k in range(PARTS):
+            marks = ([pytest.mark.slow, pytest.mark.long] if k != n % PARTS else [] if quick(*row)
+                     else [pytest.mark.slow])
+            yield pytest.param(*row, k, id=" ".join(map(str, (*row, k))), marks=marks)
 
 
 def commands() -> dict[str, set]:
@@ -209,12 +227,10 @@ def says(key, told) -> bool:
     return re.search(WORDS.get(key, SAID), told) is not None
 
 
-@pytest.mark.parametrize("name, view", [
-    pytest.param(*one, id=" ".join(one), marks=() if one[0] in QUICK else [
-        pytest.mark.slow, *[pytest.mark.long] * (one[1] != "json" and (one[0], "json") in VIEWS)]) for one in VIEWS])
-def test_every_command_and_view_says_of_every_key_that_it_is_uncertain(stabilab, case_file, name, view):
+@pytest.mark.parametrize("name, view, n", list(in_parts(VIEWS, lambda name, view: name in QUICK)))
+def test_every_command_and_view_says_of_every_key_that_it_is_uncertain(stabilab, case_file, name, view, n):
     refused = {}
-    for (form, path), label in zip(KEYS, NAMES):
+    for form, path, label in part(n):
         options = words_of(name, form, view)
         if form not in refused:
             code, out, err = stabilab(name, case_file(text(FORMS[form]), f"plain-{form}"), *options)
@@ -257,12 +273,12 @@ QUESTIONS = {"motion": {}, "attitude": {}, "when": {"rate": "8 deg/s"}, "stuck":
              "circular_orbit": {}}
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name in ("when", "stuck") else name
-                                  for name in QUESTIONS])
-def test_results_in_python_say_of_every_key_that_it_is_uncertain(case_file, name):
+@pytest.mark.parametrize("name, n", list(in_parts([(name,) for name in QUESTIONS],
+                                                  lambda name: name not in ("when", "stuck"))))
+def test_results_in_python_say_of_every_key_that_it_is_uncertain(case_file, name, n):
     """Results that are arrays alone (extremes, period) have no words: those of `motion` are theirs."""
     question, asked = getattr(package, name), 0
-    for form, path in KEYS:
+    for form, path, _ in part(n):
         options = QUESTIONS[name] | ({"rate": "2"} if name == "when" and form in ("mu", "scaled") else {})
         try:
             question(case_file(text(FORMS[form])), **options)

@@ -45,7 +45,7 @@ def rows(names):
     for n, name in enumerate(names):
         for command in COMMANDS:
             quick = command in QUICK and n < len(KINDS)
-            marks = [] if quick else [pytest.mark.slow] if n < 2 * len(KINDS) else [pytest.mark.slow, pytest.mark.long]
+            marks = [] if quick else [pytest.mark.slow] if n < len(KINDS) else [pytest.mark.slow, pytest.mark.long]
             yield pytest.param(command, name, marks=marks)
 
 
