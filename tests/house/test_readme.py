@@ -345,6 +345,7 @@ def test_an_effect_added_as_documented_is_known_to_the_commands(with_new_effect)
 
 
 @pytest.mark.slow
+@pytest.mark.long  # five minutes for one test: all laws of all pairs of effects, in a copy without compiled loops
 def test_an_effect_added_as_documented_obeys_the_laws(with_new_effect):
     assert follow(*with_new_effect, lambda command: command.startswith("python -m pytest"))
 
