@@ -49,8 +49,11 @@ UNCERTAIN_KEYS = {
     ("circular_orbit",): ("rate", "period", "altitude", "radius")}
 
 
-def may_be_uncertain(table: tuple[str, ...], key: str) -> bool:
-    """Whether the numbers of a key may be uncertain. table: its path, without numbers of tables in a list."""
+def may_be_uncertain(table: tuple[str, ...], key: str | int) -> bool:
+    """Whether the numbers of a key may be uncertain, or one number of it. table: its path, without numbers of
+    tables in a list; of one number with the key, and key its place."""
+    if not isinstance(key, str):
+        table, key = table[:-1], table[-1]
     if table[:1] == ("effects",):
         cls = effect_class(table[-1])
         return key in cls.keys and key not in cls.certain

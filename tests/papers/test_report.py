@@ -341,7 +341,7 @@ def test_the_space_of_the_rates_draws_in_a_browser(tmp_path):
     hues, hue = pixels - pixels.min(axis=1, keepdims=True), violet - violet.min()
     share = hues @ hue / (np.linalg.norm(hues, axis=1) * np.linalg.norm(hue) + 1e-9)
     coloured = (share > 0.997) & (np.ptp(pixels, axis=1) > 40) & (pixels.min(axis=1) > 40)
-    assert coloured.mean() > 0.001
+    assert coloured.sum() > 1500  # its line has twice as many, the one in the legend a hundred
 
 
 def test_cases_are_cards_with_a_picture_a_badge_and_one_line(several, everything):

@@ -23,11 +23,11 @@ START = (-1.572, .657, .738)
 FAR = 10.0  # rad/s: this motion has 4.21 at most
 
 
-def dots(ax, colour):
-    """(n, 2) of the points of a colour."""
+def dots(ax, colour, alone=None):
+    """(n, 2) of the points of a colour; alone: of those that stand alone, or of the others."""
     return np.concatenate([np.empty((0, 2)),
-                           *(np.array(line.get_data()).T for line in ax.get_lines()
-                             if line.get_color() == colour)])
+                           *(np.array(line.get_data()).T for line in ax.get_lines() if line.get_color() == colour
+                             and alone in (None, len(line.get_xdata()) == 1))])
 
 
 def euler(_, w):
@@ -76,7 +76,7 @@ def test_a_passage_that_is_undone_within_the_same_step_is_found():
 @pytest.mark.slow
 def test_passages_in_an_island_go_round_the_marked_periodic_motion(island):
     """The mark is a fixed point of the map (DOP853 brings it back), and the motion's passages surround it."""
-    (mark,), own = dots(island, BLUE), dots(island, MOTION)
+    (mark,), own = dots(island, BLUE, alone=True), dots(island, MOTION)
     from stabilab.unreduced.periodic import in_the_middle
     orbit = in_the_middle(ISLAND, START)
     (back,) = passed(orbit.state, orbit.section.axis, orbit.section.level, 2, 1.5 * orbit.period)[-1:]
@@ -93,7 +93,8 @@ def test_neighbours_inside_the_island_stay_and_those_far_outside_leave(island):
     from scipy.integrate import solve_ivp
 
     from stabilab.unreduced.periodic import in_the_middle
-    (mark,), own, stay, leave = (dots(island, colour) for colour in (BLUE, MOTION, BLUE, VERMILION))
+    (mark,), stay = dots(island, BLUE, alone=True), dots(island, BLUE, alone=False)
+    own, leave = dots(island, MOTION), dots(island, VERMILION)
     assert np.abs(stay - mark).max() <= np.abs(own - mark).max() and len(stay) == 2 * 61 and len(leave)
     orbit = in_the_middle(ISLAND, START)
     starts = neighbours_of(np.array(orbit.state), returns(ISLAND, START, orbit.section, 1)[1][0],
@@ -191,7 +192,7 @@ def test_of_a_motion_that_spins_up_the_passages_until_that_is_certain_are_drawn(
     until, ax = which.certain_from(one), stabilab.plot.section(one.case)
     times, places = returns(one.twin, one.state, crossed(one.twin, one.state, until), 100)
     assert len(dots(ax, MOTION)) == np.count_nonzero(times <= until) < 100
-    assert "until spin-up about the minor axis is certain" in ax.get_title()
+    assert "until spin-up about the minor axis is certain" in ax.figure.legends[0].get_title().get_text()
     plt.close("all")
 
 

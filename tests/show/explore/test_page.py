@@ -138,7 +138,7 @@ def test_a_click_on_an_equilibrium_starts_there(page):
     next_answer(page, lambda: page.run(f"view.onpick({json.dumps(wanted)}, 'stable equilibria')"))
     assert page.run("Number(fields.start0.field.value)") == pytest.approx(wanted[0], rel=1e-5, abs=1e-5)
     said = page.run(HEADLINE)
-    assert said.startswith(("BOUNDED", "STEADY ROTATION"))  # beside a centre
+    assert said.startswith(("Bounded", "Steady rotation"))  # beside a centre
     answers = page.run(ANSWERS)
     page.click("#space", 0.5, 0.45)  # a real click, on whatever is drawn in the middle
     time.sleep(0.5)
