@@ -18,6 +18,7 @@ MINOR, OFF, CHARGED, STUCK = (CASES / f"{name}.toml" for name in (
 
 BODY = '{"IHubPntBc_B": [12, 0, 0, 0, 9, 0, 0, 0, 5], "omega_BN_BInit": [0.1, 0, 0]}'
 BURN = """body.inertia = [12, 9, 5]
+body.mass = 10
 motion.angular_velocity = [0.01, 0, 0]
 thrusters = [{position = [1, 0, 0], direction = [0, 1, 0], force = 0.1, stop = "30 s"}]
 """

@@ -139,7 +139,7 @@ def test_a_motion_that_turns_often_is_drawn_as_it_is_and_not_by_chords_across_it
     assert len(found.lines) == 3
     for line in map(np.degrees, found.lines):
         assert np.hypot(*line[:, :2].T).min() > 5.7 and np.hypot(*(line[1:, :2] + line[:-1, :2]).T / 2).min() > 5.5
-    (band,) = [np.degrees(part.points) for words, _, part in found.veils if words.startswith("least to greatest of 298")]
+    (band,) = [np.degrees(part.points) for words, _, part in found.veils if words.startswith("least to greatest of 301 turns")]
     across = np.hypot(*band[:, :2].T)
     assert across.min() > 5.7 and across.max() > 9
 

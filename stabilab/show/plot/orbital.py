@@ -9,9 +9,10 @@ import numpy as np
 
 from ...answers.circular_orbit import CircularOrbit, circular_orbit
 from ...errors import InputError
-from .. import style
+from .. import limiting, style
 from ..text.motion import grows_in, orbit_headline
 from ..units import SHORT, Units, number, units_of
+from . import canvas
 from .body import CORNERS, FACES, box_sides
 from .subject import Subject, measures
 
@@ -63,7 +64,9 @@ def attitudes(item: Subject, ax: Axes | None = None, units: str | None = None,
             verdicts = {attitude.verdict for _, attitude in shown}
             rows = [(words, look) for words, look in LOOKS.items() if words.split()[0] in verdicts]
             style.legend(figure, [*rows, *((f"axis {item.axes.full(n)}", {"color": colour, "linewidth": 2.0})
-                                           for n, colour in enumerate(style.AXES, 1))])
+                                           for n, colour in enumerate(style.AXES, 1))],
+                         notes=canvas.fitted(limiting.notes(result.caveats, _title(result), system),
+                                             figure.get_figwidth()))
     return panels[0]
 
 

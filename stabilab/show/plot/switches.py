@@ -9,7 +9,7 @@ import numpy as np
 from ...answers.stuck.burn import Burned, burn
 from ...answers.stuck.chain import Chain, links_of
 from ...errors import InputError
-from .. import style
+from .. import limiting, style
 from ..text.stuck import burn_headline
 from ..units import SHORT, Units, number, units_of
 from . import canvas
@@ -52,8 +52,10 @@ def rates(item: Subject, ax: Axes | None = None, units: str | None = None,
         rows += _switches(target, answer, end, per_time, unit)
         system = scale.system or units_of(item.burning.craft)
         rows += _levels(target, answer, end, system, per_time)
+        line = burn_headline(answer, system)
         return canvas.explained(target, list(dict(rows).items()) if legend else [], ax is None,
-                                item.burning.craft.heading, burn_headline(answer, system))
+                                item.burning.craft.heading, line,
+                                notes=limiting.notes(answer.caveats, line, system))
 
 
 def _end(item: Subject, answer: Burned) -> float:
