@@ -88,7 +88,7 @@ def test_all_rotations_of_random_gyrostats_are_those_of_a_search_over_the_sphere
     assert {agrees(seed) for seed in range(8)} >= {2, 4}
 
 
-@pytest.mark.slow
+@pytest.mark.first(0, 4)
 @pytest.mark.parametrize("first", range(8, 508, 50))
 def test_all_rotations_of_five_hundred_gyrostats_are_those_of_a_search(first):
     assert {agrees(seed) for seed in range(first, first + 50)} >= {2, 4, 6}
