@@ -398,7 +398,8 @@ def _hero(cases, result) -> dict | None:
         if picture:
             short = "; ".join(f"{name}: {value} {note}".strip() for name, value, note in made["tiles"][:3])
             return {"file": f"{own.FOLDER}/{stem}.html", "title": made["title"], "headline": made["headline"],
-                    "look": made["look"], "picture": picture, "body": made["body"],
+                    "first": made["first"], "small": made["small"], "look": made["look"],
+                    "picture": picture, "body": made["body"],
                     "folder": f"{own.FOLDER}/", "short": short}
     return None
 

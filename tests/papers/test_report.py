@@ -344,6 +344,15 @@ def test_the_space_of_the_rates_draws_in_a_browser(tmp_path):
     assert coloured.sum() > 1500  # its line has twice as many, the one in the legend a hundred
 
 
+@pytest.mark.slow
+def test_the_start_page_has_the_two_lines_of_the_page_of_its_case(tmp_path):
+    """That of the spacecraft whose thruster is stuck."""
+    index = report.write([CASES / "minor-axis-100.toml", CASES / "cubesat-3u.toml"], tmp_path / "report", papers=True)
+    (lines,) = re.findall(r'<p class="verdict-line.*?</p>', index.read_text(encoding="utf-8"), re.DOTALL)
+    assert '<span class="below">' in lines
+    assert lines in (index.parent / "cases/cubesat-3u.html").read_text(encoding="utf-8")
+
+
 def test_cases_are_cards_with_a_picture_a_badge_and_one_line(several, everything):
     from PIL import Image
     for index, number in ((several[0], 3), (everything.parent / "cases.html", 1), (everything, 1)):
