@@ -31,9 +31,6 @@ from .result import (
     EquilibriumPoint,
     RationalCurve,
     Verdict,
-    float_ends,
-    sample_parameters,
-    values_inside,
 )
 from .stability import Pencil, cuts_of, ordered, pencil
 from .torque_free import PARALLEL, plane_of_equal_moments, torque_free_curves
@@ -110,12 +107,10 @@ def _judged(parts: Content, p: Pencil, curve: RationalCurve) -> EquilibriumCurve
 
 def _segment(parts: Content, curve: RationalCurve, lo: Fraction | None,
              hi: Fraction | None) -> tuple[CurveSegment, list[EquilibriumPoint]]:
-    middle = values_inside(lo, hi, curve.scale)
-    nature = nature_at(parts.D, parts.Lambda, curve.exact_point(middle))
-    word, verdict = ("stable", LEAST) if nature == MINIMUM else ("unstable", NOT_LEAST)
-    samples = [_point(parts, curve.exact_point(t), word, verdict)
-               for t in sample_parameters(lo, hi, curve.scale) or [middle]]
-    return CurveSegment(float_ends(lo, hi), word, verdict.word, reason=verdict.reason), samples
+    def judge(t: Fraction) -> tuple[str, Verdict]:
+        nature = nature_at(parts.D, parts.Lambda, curve.exact_point(t))
+        return ("stable", LEAST) if nature == MINIMUM else ("unstable", NOT_LEAST)
+    return curve.segment(lo, hi, judge, lambda t, *judged: _point(parts, curve.exact_point(t), *judged))
 
 
 def _fold(parts: Content, curve: RationalCurve, empty: frozenset[Fraction], t: Fraction, before: CurveSegment,

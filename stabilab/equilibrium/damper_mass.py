@@ -31,10 +31,7 @@ from .result import (
     EquilibriumPoint,
     RationalCurve,
     Verdict,
-    float_ends,
-    sample_parameters,
     straight_line,
-    values_inside,
 )
 from .stability import ordered, pencil, unit
 from .torque_free import CASIMIR
@@ -138,7 +135,8 @@ def _matrices(parts: Content, i: int, Omega: float) -> tuple[Any, Any]:
 
 def _judged(line: RationalCurve, axis: _Axis, sprung: bool) -> EquilibriumCurve:
     cuts = sorted({root for f in axis.all if f.degree > 0 for root in real_roots(f)})
-    return line.cut(cuts, partial(_segment, line, axis), partial(_fold, line, axis, sprung))
+    segment = partial(line.segment, judge=partial(_verdict, axis), point=partial(_point, line, axis))
+    return line.cut(cuts, segment, partial(_fold, line, axis, sprung))
 
 
 def _verdict(axis: _Axis, Omega: Fraction) -> tuple[str, Verdict]:
@@ -148,15 +146,6 @@ def _verdict(axis: _Axis, Omega: Fraction) -> tuple[str, Verdict]:
     if a * h > 0 and b * h > 0 and condition > 0:
         return "stable", LEAST if moving else STAYS
     return ("unstable", NOT_LEAST) if moving else ("degenerate", OPEN)
-
-
-def _segment(line: RationalCurve, axis: _Axis, lo: Fraction | None,
-             hi: Fraction | None) -> tuple[CurveSegment, list[EquilibriumPoint]]:
-    middle = values_inside(lo, hi, line.scale)
-    word, verdict = _verdict(axis, middle)
-    samples = [_point(line, axis, t, word, verdict)
-               for t in sample_parameters(lo, hi, line.scale) or [middle]]
-    return CurveSegment(float_ends(lo, hi), word, verdict.word, reason=verdict.reason), samples
 
 
 def _fold(line: RationalCurve, axis: _Axis, sprung: bool, t: Fraction, before: CurveSegment,

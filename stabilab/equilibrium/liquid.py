@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from math import inf, sqrt
 from types import SimpleNamespace
 
@@ -44,9 +45,6 @@ from .result import (
     EquilibriumPoint,
     RationalCurve,
     Verdict,
-    float_ends,
-    sample_parameters,
-    values_inside,
 )
 from .stability import ordered, pencil
 from .torque_free import torque_free_curves
@@ -185,14 +183,11 @@ def _judged(parts: Content, curve: RationalCurve) -> EquilibriumCurve:
     fixed = {t: _cut(parts, curve, t) for t in (*curve.crossings, *inner) if t not in curve.poles}
     cuts = sorted({*curve.poles, *curve.crossings, *(t for t in inner if fixed[t].linear == "degenerate")})
 
-    def segment(lo, hi):
-        middle = values_inside(lo, hi, curve.scale)
-        word = _word(*coefficients(jacobian(parts, curve.exact_point(middle))))
-        verdict = _verdict(parts, word)
-        chosen = sample_parameters(lo, hi, curve.scale) or [middle]
-        samples = [point(parts, curve.exact_point(t)) for t in chosen]
-        return CurveSegment(float_ends(lo, hi), word, verdict.word, reason=verdict.reason), samples
-    return curve.cut(cuts, segment, lambda t, *_: fixed[t])
+    def judge(t: Fraction) -> tuple[str, Verdict]:
+        word = _word(*coefficients(jacobian(parts, curve.exact_point(t))))
+        return word, _verdict(parts, word)
+    sample = lambda t, *_: point(parts, curve.exact_point(t))
+    return curve.cut(cuts, partial(curve.segment, judge=judge, point=sample), lambda t, *_: fixed[t])
 
 
 def _cut(parts, curve, t) -> EquilibriumPoint:

@@ -175,6 +175,15 @@ class RationalCurve:
         return EquilibriumCurve(self.description, self.rounded_point, tuple(s for s, _ in pieces),
                                 tuple(point.at for point in folds), tuple(samples))
 
+    def segment(self, lo: Fraction | None, hi: Fraction | None, judge: Callable[..., tuple[str, Verdict]],
+                point: Callable[..., EquilibriumPoint]) -> tuple[CurveSegment, list[EquilibriumPoint]]:
+        """The segment between two neighbouring cuts (None: infinite) and its samples. judge(t): the linear
+        word and the verdict, asked in its middle; point(t, word, verdict): a sample."""
+        middle = values_inside(lo, hi, self.scale)
+        word, verdict = judge(middle)
+        samples = [point(t, word, verdict) for t in sample_parameters(lo, hi, self.scale) or [middle]]
+        return CurveSegment(float_ends(lo, hi), word, verdict.word, reason=verdict.reason), samples
+
 
 def straight_line(start: Sequence[Fraction], direction: Sequence[Fraction]) -> tuple[Poly, ...]:
     """start + t direction as polynomials."""
