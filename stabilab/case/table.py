@@ -17,7 +17,7 @@ from ..errors import InputError, Problem, printable
 from ..numbers.exact import exact
 from ..numbers.units import dimension_of, quantity, unit_of_key
 from ..numbers.vectors import Exact3
-from ..physics.effects import REGISTRY, effect_class
+from ..physics.effects import effect_class
 from .aliases import (
     cure_of_key,
     cure_of_number,
@@ -58,13 +58,6 @@ def may_be_uncertain(table: tuple[str, ...], key: str | int) -> bool:
         cls = effect_class(table[-1])
         return key in cls.keys and key not in cls.certain
     return key in UNCERTAIN_KEYS.get(table, ())
-
-
-def uncertain_keys() -> set[tuple[str, ...]]:
-    """The paths of all these keys."""
-    effects = {("effects", name, key) for name in REGISTRY for key in effect_class(name).keys
-               if may_be_uncertain(("effects", name), key)}
-    return effects | {(*table, key) for table, keys in UNCERTAIN_KEYS.items() for key in keys}
 
 
 # Keys of [motion] by which a start is stated as it is observed (`observed`): of a tumbling body, of a spin,

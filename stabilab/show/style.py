@@ -29,8 +29,6 @@ VIOLET, SAGE, WINE = "#AA66FF", "#668855", "#880000"      # the motion itself; t
 # the same hues for methods and printed curves, on pages that have neither outcomes nor axes
 ORANGE, SKY, GREEN, PURPLE = AMBER, TEAL, PINE, PLUM
 
-OUTCOME = {"bounded": BLUE, "spin-up": VERMILION, "separatrix": BLACK, "equilibrium": GREY,
-           "undecided": AMBER}
 LOOK = {"bounded": BLUE, "changes": VERMILION, "conditional": AMBER}  # of a headline
 AXES = (PLUM, TEAL, PINE)
 # areas: tints that are told apart as lines are; the axis of a spin-up is said by its hatch and a letter

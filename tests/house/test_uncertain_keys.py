@@ -15,10 +15,11 @@ import pytest
 import stabilab as package
 from stabilab.case.body import THRUSTER
 from stabilab.case.read import load
-from stabilab.case.table import uncertain_keys
+from stabilab.case.table import UNCERTAIN_KEYS, may_be_uncertain
 from stabilab.case.write import text_of
 from stabilab.cli import whole
 from stabilab.errors import InputError
+from stabilab.physics.effects import REGISTRY, effect_class
 from stabilab.show.explore.session import Session
 from stabilab.show.report import one_case
 from tests.shared import later
@@ -106,6 +107,13 @@ VARIED = {  # of each form, what is varied that stays certain
 DRAWN = {"plot": "pictures (tests/show/test_plots.py)", "surface": "meshes", "report": "the page below",
          "explore": "the session below", "verify": "certificates",
          "export": "a body for others (tests/case/test_export.py)"}
+
+
+def uncertain_keys() -> set[tuple[str, ...]]:
+    """The paths of all keys of the program whose numbers may be uncertain."""
+    effects = {("effects", name, key) for name in REGISTRY for key in effect_class(name).keys
+               if may_be_uncertain(("effects", name), key)}
+    return effects | {(*table, key) for table, keys in UNCERTAIN_KEYS.items() for key in keys}
 
 
 def keys() -> list[tuple]:

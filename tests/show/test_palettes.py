@@ -96,7 +96,7 @@ MEANS = {style.BLUE: "(?<!un)stable|bounded|stays|steady|centre|least energy|nei
          style.SAGE: "^cut|printed|other states|wheel", style.WINE: "^cut|corrected|averaged|expansion|wheel"}
 MEANS |= {colour: rf"[ωx]\D*{n}|{n}$|^{'xyz'[n - 1]}\b|\b{'xyz'[n - 1]}$|ω_{'xyz'[n - 1]}|limits|{rank}"
           for n, (colour, rank) in enumerate(zip(style.AXES, ("major|minor|intermediate",) * 3), 1)}
-TINTS = {style.FILL[word]: style.OUTCOME[word] for word in ("bounded", "spin-up", "undecided")}
+TINTS = {style.FILL[word]: style.MEANING[word]["color"] for word in ("bounded", "spin-up", "undecided")}
 TINTS |= {colour: cost.LOOKS[name]["color"] for name, colour in cost.DARK.items()}  # of words
 GREY = 0.07  # of a channel: what has less colour is a grey
 
