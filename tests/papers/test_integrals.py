@@ -84,8 +84,14 @@ def test_the_printed_rows_hold_what_30_71_and_79_give():
 @pytest.mark.parametrize("name", ["G1", "G2", "G3"])
 def test_the_audit_finds_an_integral_by_its_name(stabilab, name):
     equation = {"G1": "30", "G2": "71", "G3": "79"}[name]
-    code, out, _ = stabilab("audit", "constant-torque", "--equation", name)
-    assert code == 0 and any(line.startswith(f"{equation} ") for line in out.splitlines())
+    for paper in (("constant-torque",), ()):
+        code, out, _ = stabilab("audit", *paper, "--equation", name)
+        assert code == 0 and any(line.startswith(f"{equation} ") for line in out.splitlines())
+
+
+def test_an_equation_that_no_paper_has_is_refused(stabilab):
+    code, out, err = stabilab("audit", "--equation", "G99")
+    assert (code, out) == (2, "") and "no paper has a row for it" in err and err.count("\n") == 1
 
 
 def test_a_figure_of_the_main_paper_leads_to_the_pages_of_its_cases():

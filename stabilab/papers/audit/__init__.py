@@ -15,17 +15,21 @@ from concurrent.futures import ProcessPoolExecutor
 from ...errors import InputError
 from ...theories.printed.claims import Paper, key, paper, papers
 from ...threads import limit_worker
-from .findings import Finding, audit
+from .findings import Finding, audit, rows_of
 
 Tell = Callable[[int, int, str], None]  # done, count, words: told before each step
 
 
 def audited(name: str | None = None, equation: str | None = None,
             tell: Tell | None = None) -> tuple[tuple[Paper, tuple[Finding, ...]], ...]:
-    """(paper, findings, rows in order) of one paper, or of all on record by a process a paper. tell: of each
-    row of one paper, of each paper of all. InputError for an unknown paper or equation."""
+    """(paper, findings, rows in order) of one paper, or of all on record by a process a paper; of an equation
+    without its paper, of those that have it. tell: of each row of one paper, of each paper of all. InputError
+    for an unknown paper or equation."""
     if name is None and equation is not None:
-        raise InputError(f"equation {equation}: name its paper as well: {', '.join(papers())}")
+        known = [name for name in papers() if rows_of(paper(name), equation)]
+        if not known:
+            raise InputError(f"equation {equation}: no paper has a row for it; stabilab papers lists all")
+        return tuple(findings_of(name, equation, tell) for name in known)
     if name is not None:
         return (findings_of(name, equation, tell),)
     with ProcessPoolExecutor(min(len(papers()), os.cpu_count() or 1),

@@ -324,11 +324,7 @@ def audit(paper: Paper, equation: str | None = None,
     """Findings of a paper's rows, or of one equation, with or without its brackets; else of the rows that
     speak of it, as "G1". tell(done, count, words): before each row."""
     prove_systems(paper)
-    rows = list(paper.rows)
-    if equation is not None:
-        label = equation.strip().strip("()")
-        rows = ([row for row in rows if row.equation == label]
-                or [row for row in rows if re.search(rf"(?<!\w){re.escape(label)}(?!\w)", row.says)])
+    rows = list(paper.rows) if equation is None else rows_of(paper, equation)
     if not rows:
         raise InputError(
             f"{paper.name} has no row for equation {equation!r}; it has "
@@ -339,6 +335,13 @@ def audit(paper: Paper, equation: str | None = None,
             tell(done, len(rows), f"equation {row.equation}")
         result.append(examine(paper, row))
     return tuple(result)
+
+
+def rows_of(paper: Paper, equation: str) -> list[Row]:
+    """The row of an equation, as of `audit`, else those that speak of it."""
+    label = equation.strip().strip("()")
+    return ([row for row in paper.rows if row.equation == label]
+            or [row for row in paper.rows if re.search(rf"(?<!\w){re.escape(label)}(?!\w)", row.says)])
 
 
 def prove_systems(paper: Paper) -> None:
