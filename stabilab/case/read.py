@@ -1,100 +1,45 @@
 """A case file to a `Case`; every fault with its file, line and key."""
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from pathlib import Path
-from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..errors import CaseError, Caveat, InputError, Kind, printable
-from ..numbers.exact import floats, sqrt_fraction
+from ..numbers.exact import floats
 from ..numbers.principal import PrincipalAxes, oblique
-from ..numbers.vectors import Exact3, Float3, dot
-from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
-from ..physics.effects import REGISTRY, effect_class
-from ..physics.effects.base import Effect, effect_words
-from ..physics.scene import INSIDE, NO_MOTION, Body, ScaledGyrostat, Scene
-from ..reasons import Quantity, Reason, Sentence, chained
+from ..numbers.vectors import Exact3, Float3
+from ..physics.coefficients import Scaling
+from ..physics.scene import INSIDE, NO_MOTION, ScaledGyrostat, Scene
+from ..reasons import Reason, Sentence
 from ..validation import came, checked_span
-from .aliases import cure_of_key, cure_of_units
-from .body import (
-    Limits,
-    Thruster,
-    Wheel,
-    added,
-    body_of,
-    centre_of_mass,
-    far_off,
-    fitted,
-    judge_limits,
-    judge_oblique,
-    limits_of,
-    thrusters_of,
-    turned_effects,
-    turned_motion,
-    wheels_of,
-)
+from .aliases import cure_of_units
+from .body import Limits, Thruster, Wheel, judge_limits, judge_oblique, turned_motion
 from .correlations import correlations_of
 from .far import in_doubles
 from .lines import KeyLines, key_lines
-from .sections import (
-    BURN_KEYS,
-    BURN_ONLY,
-    Segment,
-    judge_attitude,
-    judge_orbit,
-    rate_squared,
-    segments,
-    vertical_of,
-)
+from .motion import SPANS, STATES, judge_blocks, motion_of, observed_reader, span_of
+from .notices import caveats_of
+from .scene import craft_of, in_variables, physical_of, scaled_of
+from .sections import BURN_KEYS, BURN_ONLY, Segment, judge_orbit, rate_squared, segments
 from .source import TOGETHER, combinations, parsed, place, source_text, swept
-from .table import OBSERVED, Faults, Table, described, did_you_mean, dotted, expected
-from .uncertain import BEYOND, NORMAL, SIGMAS, Correlation, Uncertain
+from .table import OBSERVED, Faults, Table, described, dotted, expected
+from .uncertain import Correlation, Uncertain
 from .write import data_of_scene, plain, text_of
 
-# --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
 TABLES = ("title", "source", "caveats", "body", "effects", "thrusters", "wheels", "limits", "circular_orbit",
-          "scaled",
-          "motion", "correlations", "output", "expect", "sweep")
+          "scaled", "motion", "correlations", "output", "expect", "sweep")
 SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is printed
-STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
-# key: block
-BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
-          "damper": "damper", "wheel": "wheel", "damper_wheel": "damper_wheel",
-          "sprung_wheel": "sprung_wheel", "damper_mass": "damper_mass"}
-OBSERVED_KEYS = frozenset(OBSERVED)
 TURNED_BACK = Fraction(1, 10**15)
-UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
-SIZES = Sentence("tolerance-not-looked-at", "the tolerance of the force of {thrusters} is not looked at "
-                 "here; stabilab fate and stabilab when look at it")
-TILTS = Sentence("misalignment-not-looked-at", "the misalignment of {thrusters} is not looked at here; "
-                 "stabilab fate and stabilab when look at it")
-MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
-    "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
-NORMALS = Sentence(
-    "normal-numbers", "{keys}: normal; what is said of all values of the uncertain numbers is said of those "
-    "within {sigmas} sigma, beyond which at most {percent} % of the draws lie")
-CORRELATED = Sentence(
-    "correlated-numbers", "correlations of uncertain numbers ({pairs}) count in samples (--samples); what is "
-    "said of all values holds for every correlation")
-PAIR = Sentence("correlated-pair", "{first} with {second}: {value}")
-NO_CENTRE = Sentence("no-centre-of-mass",
-                     "the file gives no centre_of_mass: thrusters are placed from it")()
 NO_START = Sentence("start-not-looked-at",
                     "the start in [motion] is not looked at: the attitudes are those at rest in the orbital "
                     "frame; of a symmetric satellite that spins about its axis a wheel along the axis "
                     "stands for the spin, with the momentum C (spin - rate of the orbit along the axis), C "
                     "the moment about it, the spin in space")
-STATED = Sentence("stated-by-the-file", "{statement}")
-SILENT = Sentence("no-thruster-fires",
-                  "no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
-                  "({thrusters})")
-STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 
 @dataclass(frozen=True)
@@ -499,69 +444,34 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     top.known(TABLES, "table or key")
     swept(top)  # notes the faults of [sweep]
     title, source, declared = top.text("title"), top.text("source"), top.texts("caveats")
-    craft = _craft(top)
-    motion = _motion(top)
-    physical, mu, frame = _physical(top, craft, motion)
-    motion, taken = (_observed().with_observed(motion, physical, frame) if motion.state_key in OBSERVED
+    craft = craft_of(top)
+    motion = motion_of(top)
+    physical, mu, frame = physical_of(top, craft, motion)
+    motion, taken = (observed_reader().with_observed(motion, physical, frame) if motion.state_key in OBSERVED
                      else (motion, ()))
-    scaled = _scaled(top)
+    scaled = scaled_of(top)
     judge_oblique(top, frame)
     judge_limits(top, craft.limits, None if motion.state_key == "x" else motion.exact)
     motion = turned_motion(motion, frame)
     expect = expected(top.table("expect"))
     units = _units(top.table("output"))
-    scene, variables, scaling = _variables(top, motion, physical, scaled, mu)
-    _judge_blocks(motion, scene)
-    span = _span(motion, variables, scaling)
+    scene, variables, scaling = in_variables(top, motion, physical, scaled, mu)
+    judge_blocks(motion, scene)
+    span = span_of(motion, variables, scaling)
     _judge_burns(top, burning)
     judge_orbit(top, physical.effects if physical else (), orbiting)
     correlations = correlations_of(top, tuple(faults.uncertain.values()))
     if faults.problems:
         raise CaseError(path, faults.ordered())
+    uncertain = tuple(faults.uncertain.values())
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect,
                 motion.blocks, text,
-                variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None,
+                variant, uncertain, mu, motion.exact, frame if physical else None,
                 craft.thrusters, craft.wheels, craft.limits,
                 tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))),
                 (*craft.assumed, *taken), units, observed=motion.state_key in OBSERVED,
                 correlations=correlations,
-                caveats=(*(Caveat(Kind.STATED, STATED(statement=item)) for item in declared),
-                         *(physical.body.caveats if physical else ()),
-                         *(far_off(physical.body, craft.thrusters) if physical else ()),
-                         *(caveat for effect in scene.effects for caveat in effect.caveats),
-                         *_silent(craft.thrusters),
-                         *_middles(tuple(faults.uncertain.values()), craft.thrusters),
-                         *_distributed(tuple(faults.uncertain.values()), correlations)))
-
-
-def _silent(thrusters: tuple[Thruster, ...]) -> tuple[Caveat, ...]:
-    """That there are thrusters and none of them acts: whoever describes them asks what they do."""
-    if not thrusters or any(thruster.stuck or thruster.burn for thruster in thrusters):
-        return ()
-    return (Caveat(Kind.THRUSTERS, SILENT(thrusters=", ".join(thruster.name for thruster in thrusters))),)
-
-
-def _middles(uncertain: tuple[Uncertain, ...], thrusters: tuple[Thruster, ...]) -> list[Caveat]:
-    """That an answer is of the middles of the uncertain numbers; of forces by itself, as more questions look
-    at these than at others."""
-    firing = [thruster for thruster in thrusters if thruster.stuck or thruster.burn]
-    sized = tuple(item.name for item in firing if item.force_tolerance)
-    tilts = tuple(item.name for item in firing if item.misalignment)
-    return [*([MIDDLES] if len(uncertain) > len(sized) else []),
-            *(Caveat(kind, sentence(thrusters=names)) for kind, sentence, names in (
-                (Kind.TOLERANCE, SIZES, sized), (Kind.MISALIGNMENT, TILTS, tilts)) if names)]
-
-
-def _distributed(uncertain: tuple[Uncertain, ...], correlations: tuple[Correlation, ...]) -> Iterator[Caveat]:
-    """How far the box of normal numbers reaches, and what correlations count for."""
-    normal = tuple(item.key for item in uncertain if item.law == NORMAL)
-    if normal:
-        outside = Quantity(100 * BEYOND * len(normal), digits=3).upper
-        yield Caveat(Kind.DISTRIBUTION, NORMALS(keys=normal, sigmas=SIGMAS, percent=outside))
-    if correlations:
-        pairs = [PAIR(first=row.first, second=row.second, value=Quantity(float(row.value), digits=6))
-                 for row in correlations]
-        yield Caveat(Kind.DISTRIBUTION, CORRELATED(pairs=chained(*pairs, joint=", ")))
+                caveats=caveats_of(declared, physical, scene, craft.thrusters, uncertain, correlations))
 
 
 def _units(output: Table | None) -> str:
@@ -578,266 +488,3 @@ def _units(output: Table | None) -> str:
     return wanted
 
 
-class _Craft(NamedTuple):
-    """What the file says a spacecraft carries."""
-
-    thrusters: tuple[Thruster, ...] = ()
-    wheels: tuple[Wheel, ...] = ()
-    limits: Limits | None = None
-    assumed: tuple[Reason, ...] = ()
-
-
-def _craft(top: Table) -> _Craft:
-    if "scaled" in top:
-        return _Craft()
-    centre = centre_of_mass(top)
-    thrusters = thrusters_of(top, centre)
-    assumed = (NO_CENTRE,) if thrusters and centre is None else ()
-    return _Craft(thrusters, wheels_of(top), limits_of(top), assumed)
-
-
-class _Context(NamedTuple):
-    """What an effect may need of the rest of the case."""
-
-    body: Body
-    stand_in: bool = False  # the body itself is at fault: judge nothing by it
-
-    def torque_from_mu(self, mu: Sequence[Fraction]):
-        return torque_from_mu(self.body, mu)
-
-
-def _physical(top: Table, craft: _Craft,
-              motion: _Motion) -> tuple[Scene | None, tuple | None, PrincipalAxes | None]:
-    """The scene of [body], [effects] and hardware along principal axes, the dimensionless torque where the
-    file gives it, the axes."""
-    if "scaled" in top:
-        for key in ("body", "effects", "thrusters", "wheels", "limits"):
-            if key in top:
-                top.fault("[scaled] stands for [body] and [effects]: keep one or the other", key)
-        return None, None, None
-    body, frame = body_of(top)
-    built = _effects(top, body)
-    if body is None or None in built:
-        return None, None, frame
-    try:
-        full = added(built, craft.thrusters, craft.wheels)
-        frame = fitted(frame, full, motion)
-        full = turned_effects(top, full, frame)
-    except InputError as error:  # numbers that are good one by one, but not added up or turned
-        top.fault(f"added up along principal axes, {error}",
-                  next(key for key in ("thrusters", "wheels", "effects") if key in top))
-        return None, None, frame
-    refused = [(effect, why) for effect in full if (why := effect.refused_by(body))]
-    for effect, why in refused:
-        top.fault(why, "effects", effect.name, effect.keys[0])
-    if refused:
-        return None, None, frame
-    torque = (top.data.get("effects", {}).get("constant_torque") if isinstance(top.data.get("effects"), dict)
-              else None)
-    if not isinstance(torque, dict):  # absent, or no table, which is noted already
-        return _scene(body, full, frame), None, frame
-    mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
-    if mu and any(thruster.stuck for thruster in craft.thrusters):
-        top.fault("mu cannot be added to the torque of a thruster: give torque in N m", "effects",
-                  "constant_torque", "mu")
-    return _scene(body, full, frame), mu, frame
-
-
-def _scene(body: Body, effects: Sequence[Effect], frame: PrincipalAxes | None) -> Scene:
-    """The scene, which knows where its axes lie in the frame of the file."""
-    scene = Scene(body, *effects)
-    if frame is not None and not frame.as_given:
-        object.__setattr__(scene, "frame", frame)
-    return scene
-
-
-def _effects(top: Table, body: Body | None) -> list:
-    """The effects as the file gives them, None for one at fault."""
-    effects = top.table("effects")
-    if effects is None:
-        return []
-    built = []
-    for name in effects.data:
-        if name not in REGISTRY:
-            cure = cure_of_key(effects.path, name, effects.data, REGISTRY)
-            hint = f"; {cure}" if cure else did_you_mean(name, REGISTRY)
-            resolved = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""
-            effects.fault(f"unknown effect{hint}{resolved}", name)
-            continue
-        table = effects.table(name)
-        if table is None:
-            continue
-        cls = effect_class(name)
-        table.known(cls.keys)
-        try:
-            built.append(cls.from_case(table, _Context(body or STAND_IN, body is None)))
-        except InputError as error:  # numbers that are good one by one, but not together
-            effects.fault(str(error), name)
-    return built
-
-
-def _scaled(top: Table) -> ScaledGyrostat | None:
-    """The system of [scaled]: the paper's a, b, mu, any real numbers."""
-    table = top.table("scaled")
-    if table is None:
-        return None
-    table.known(("a", "b", "mu"))
-    table.required("a", "b", "mu")
-    a, b, mu = table.number("a"), table.number("b"), table.vector("mu")
-    return None if a is None or b is None or mu is None else ScaledGyrostat(a, b, mu)
-
-
-@dataclass(frozen=True)
-class _Motion:
-    """[motion] as it is written: which keys, and their numbers."""
-
-    table: Table
-    state_key: str | None = None
-    state: tuple[float, ...] | None = None
-    span_key: str | None = None
-    span: tuple | None = None
-    blocks: dict = field(default_factory=dict)
-    exact: tuple | None = None
-    exact_vertical: tuple | None = None
-
-
-def _motion(top: Table) -> _Motion:
-    table = top.table("motion")
-    if table is None:
-        return _Motion(Table(("motion",), {}, top.faults))
-    table.known(STATES + SPANS + tuple(BLOCKS) + OBSERVED)
-    state_key, span_key = table.one_of(*STATES), table.one_of(*SPANS)
-    states, spans = {k: table.vector(k) for k in STATES}, {k: table.numbers(k, 2) for k in SPANS}
-    state, span = states.get(state_key), spans.get(span_key)
-    if span and not float(span[0]) < float(span[1]):
-        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}: write "
-                    "the start of the motion first, such as [0, 100]",
-                    span_key)
-        span = None
-    if not OBSERVED_KEYS.isdisjoint(table.data):
-        state_key = _observed().observed_key(table, state_key) or state_key
-    if "scaled" in top:
-        for key, other in (("angular_velocity", "x"), ("span", "tau"), *((key, "x") for key in OBSERVED)):
-            if key in table:
-                table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
-    vectors = {block: vector for key, block in BLOCKS.items()
-               if (vector := table.numbers(key, len(NO_MOTION.get(block, (0.0,) * 3)))) is not None}
-    if "gamma" in vectors:
-        vectors["gamma"] = _unit(table, vectors["gamma"])
-    blocks = {block: floats(vector) for block, vector in vectors.items()}
-    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state,
-                   vectors.get("gamma"))
-
-
-def _observed() -> ModuleType:
-    """What reads a start that is stated as it is observed."""
-    from . import observed
-    return observed
-
-
-def _unit(table: Table, vertical: Exact3) -> Exact3:
-    """The vertical as a unit vector, whatever its length is."""
-    length = sqrt_fraction(dot(vertical, vertical))
-    if not length:
-        table.fault("expected a direction, got zero: give a vector of any length but that", "vertical")
-        return (Fraction(0), Fraction(0), Fraction(1))
-    return vertical if abs(length - 1) <= UNIT_SLACK else tuple(v / length for v in vertical)
-
-
-def _judge_blocks(motion: _Motion, scene):
-    """Starting values beyond the angular velocity: possible for this scene, and complete."""
-    table, supplied = motion.table, motion.blocks
-    for key, block in BLOCKS.items():
-        if block in supplied and getattr(scene, "variables", "") == "scaled":
-            table.fault("a scaled system has no attitude and no place: give a body and its effects", key)
-            return
-    for key in ("velocity", "position"):
-        if key in supplied and scene is not None and scene.body.mass is None:
-            table.fault("motion through space needs the mass of the body: give body.mass in kg", key)
-    if "damper" in supplied and scene is not None and "damper" not in scene.blocks:
-        table.fault("no damper turns in this body: give [effects.viscous_damper], or take the key away",
-                    "damper")
-    if "sprung_wheel" in supplied and scene is not None and "sprung_wheel" not in scene.blocks:
-        table.fault("no damper wheel is on a spring in this body: give [effects.damper_wheel] a stiffness, "
-                    "or take the key away", "sprung_wheel")
-    if "damper_wheel" in supplied and scene is not None and "sprung_wheel" in scene.blocks:
-        table.fault("the damper wheel is on a spring: give its angle and its rate, sprung_wheel = [0, 0.5]",
-                    "damper_wheel")
-        return
-    for key in ("damper_wheel", "damper_mass"):
-        if key in supplied and scene is not None and key not in scene.blocks:
-            table.fault(f"no {effect_words(key)} is in this body: give [effects.{key}], or take the key away",
-                        key)
-    if "wheel" in supplied and scene is not None and "wheel" not in scene.blocks:
-        table.fault("no motor turns a wheel in this body: give [effects.wheel_motor]; the momentum of a "
-                    "wheel that runs by itself is that of [effects.gyrostat]", "wheel")
-    if "wheel" in supplied and (text := next((said for item in getattr(scene, "effects", ())
-                                            if (said := item.refuses({"wheel": supplied["wheel"]}))), "")):
-        table.fault(text.removeprefix("wheel: "), "wheel")
-    if (motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in supplied
-            and "lean" not in table):
-        angles = supplied.get("attitude")
-        told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
-                else "")
-        need = [effect_words(effect.name) for effect in scene.effects if set(effect.needs) - set(INSIDE)]
-        table.fault(f"vertical is missing: because of {' and '.join(need)} give the direction of inertial "
-                    f"axis 3 (of the weight, down; of the field; to the centre) in the body at the start, as "
-                    f"[0, 0, 1]{told}")
-    judge_attitude(table, supplied, scene)
-
-
-def _variables(top: Table, motion: _Motion, physical: Scene | None, scaled: ScaledGyrostat | None,
-               mu: Sequence[Fraction] | None):
-    """(scene, "physical" or "scaled", change of variables or None), by the rule in `load`."""
-    if physical is None:
-        return _in_range(top, scaled), "scaled", None
-    try:
-        physical.quadratic()  # refuses effects that the scaled system does not have
-        twin, scaling = to_scaled(physical, mu)
-    except InputError as error:
-        for key in ("x", "tau"):
-            if key in motion.table:
-                motion.table.fault(f"{error}", key)
-        return _in_range(top, physical), "physical", None
-    if motion.state_key == "x" or (mu is not None and motion.state_key is None):
-        return _in_range(top, twin), "scaled", scaling
-    return _in_range(top, physical), "physical", scaling
-
-
-def _in_range(top: Table, scene):
-    """The scene, if its rates can be formed in doubles."""
-    try:
-        scene is None or scene.quadratic().coefficients
-    except OverflowError:
-        top.fault("the coefficients of the equations of motion exceed the largest double (about 1.8e308): "
-                  "choose other units", "scaled" if "scaled" in top else "body")
-    except InputError:  # other effects: their parameters, and these as rates
-        for effect in scene.effects:
-            if _too_large(effect, scene.body):
-                top.fault("its numbers, or these over the moments of inertia, exceed the largest double "
-                          "(about 1.8e308): "
-                          "choose other units", "effects", effect.name)
-    return scene
-
-
-def _too_large(effect: Effect, body: Body) -> bool:
-    try:
-        return not all(math.isfinite(float(v)) and math.isfinite(float(v / min(body.exact)))
-                       for v in effect.parameters().values())
-    except OverflowError:
-        return True
-
-
-def _span(motion: _Motion, variables: str, scaling: Scaling | None) -> tuple[float, ...] | None:
-    """The span in the case's time: s, or tau = t/scaling.time."""
-    supplied, wanted = motion.span_key, "tau" if variables == "scaled" else "span"
-    if motion.span is None or supplied == wanted:
-        return floats(motion.span) if motion.span else None
-    if scaling is None:
-        return None  # the fault is noted already
-    factor = scaling.time if supplied == "tau" else 1 / scaling.time
-    try:
-        return floats(t * factor for t in motion.span)
-    except OverflowError:
-        motion.table.fault("exceeds the largest double (about 1.8e308) in the other time unit", supplied)
-        return None
