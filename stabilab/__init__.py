@@ -111,8 +111,8 @@ def __getattr__(name: str) -> Any:
 
 
 def _results() -> ModuleType:
-    from .show import results
-    return results
+    from .show.results import views
+    return views
 
 
 seen_through(_results)

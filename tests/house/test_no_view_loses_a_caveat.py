@@ -19,7 +19,7 @@ from stabilab.representation import Shown
 from stabilab.show import limiting
 from stabilab.show.explore.session import Session
 from stabilab.show.report import one_case
-from stabilab.show.results import KINDS
+from stabilab.show.results.kinds import KINDS
 from tests.shared import CASES
 from tests.show.explore.test_session import ask
 

@@ -198,10 +198,10 @@ def test_a_negative_torque_has_the_integral_of_a_plane_that_the_page_writes(side
 
 
 def test_text_json_and_data_say_that_the_state_is_turned():
-    from stabilab.show import results
+    from stabilab.show.results import kinds
     from stabilab.show.text.motion import energy_integral
     from stabilab.show.units import SCALED
     case = stabilab.load(stabilab.ScaledGyrostat("0.6", "1.2", (0, 0, -1)), (1, 2, 3))
     (name, text), = energy_integral(case.motion(), SCALED)
     assert name == "energy integral G1" and "turned by half about axis 1, as the torque is negative" in text
-    assert "turned_about" in str(results._motion(case.motion()))
+    assert "turned_about" in str(kinds._motion(case.motion()))

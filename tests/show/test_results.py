@@ -184,7 +184,7 @@ def test_every_effect_can_be_had_from_the_package():
 
 
 def test_every_class_of_results_is_tried_here():
-    from stabilab.show.results import KINDS
+    from stabilab.show.results.kinds import KINDS
     assert set(RESULTS) == set(KINDS)
 
 

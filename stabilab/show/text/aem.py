@@ -23,7 +23,7 @@ from ...answers.simulate import Simulation
 from ...case.read import Case
 from ...errors import InputError, printable
 from ...numbers.principal import oblique
-from ..results import matrix_of, turned_to_file
+from ..results.variables import matrix_of, turned_to_file
 
 DIGITS = 9  # of a second
 EPOCH = re.compile(r"\d{4}-\d{2}-\d{2}T\d{2}:\d{2}:\d{2}(\.\d{1,9})?")

@@ -19,7 +19,15 @@ from ...representation import values_of
 from ...version import __version__
 from .. import endings, frame
 from ..data import csv_lines
-from ..results import BODILY, Variables, frame_attributes, in_file, matrix_of, of_parts, turned_to_file
+from ..results.variables import (
+    BODILY,
+    Variables,
+    frame_attributes,
+    in_file,
+    matrix_of,
+    of_parts,
+    turned_to_file,
+)
 from ..terminal import lettered, written
 from ..units import DIGITS, SHORT, Units, with_unit
 from .aem import message
