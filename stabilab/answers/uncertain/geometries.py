@@ -13,7 +13,8 @@ import numpy as np
 
 from ...numbers.affine import lifted
 from ...orbit.reduction import reduction_about
-from .boxes import Box, Family
+from .boxes import Box
+from .branch_and_bound import Family
 from .result import UNKNOWN, corners
 
 SEED, DRAWN, STARTS = 8, 2048, 16  # of a search for the least margin: points at random, the least of them

@@ -17,7 +17,8 @@ import numpy as np
 from ...numbers.bracket import Bracket, halved_each, narrowed, side
 from ...orbit.result import Fate
 from ...reasons import Quantity, Reason, Reasoned, Sentence
-from .boxes import Box, Numbers, Point, Proof
+from .boxes import Box, Numbers, Point
+from .branch_and_bound import Proof
 from .verdicts import ALSO_ANOTHER, joined, reason_of
 
 EACH_VERDICT = Sentence("so-many-points", "{count}: {verdict}")

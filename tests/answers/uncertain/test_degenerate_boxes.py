@@ -7,8 +7,10 @@ command's code.
 import numpy as np
 import pytest
 
-from stabilab.answers.uncertain.boxes import Proof, box_of
-from stabilab.answers.uncertain.fate import fate_over, look_at, signature_at, uncertain
+from stabilab.answers.uncertain.boxes import box_of
+from stabilab.answers.uncertain.branch_and_bound import Proof
+from stabilab.answers.uncertain.equilibria import signature_at
+from stabilab.answers.uncertain.fate import fate_over, look_at, uncertain
 from stabilab.answers.uncertain.result import bracketed
 from stabilab.case.read import load
 from tests.answers.uncertain.test_verdicts import BODY, case_of, sampled

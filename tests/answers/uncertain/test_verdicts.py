@@ -8,7 +8,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab.answers.uncertain.boxes import box_of
-from stabilab.answers.uncertain.fate import signature_at, uncertain
+from stabilab.answers.uncertain.equilibria import signature_at
+from stabilab.answers.uncertain.fate import uncertain
 from stabilab.case.read import load
 from stabilab.errors import CaseError
 from stabilab.numbers.affine import Affine, root
