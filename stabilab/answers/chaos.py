@@ -46,8 +46,8 @@ STAYS = Sentence(
     "megno-stays", "after {turns} turns MEGNO is {megno} ({half} at half that time); it tends to 2 on tori, "
     "to less where neighbours stay or come together")
 AT_REST_STIFF = Sentence(
-    "equilibrium-too-stiff", "it is an equilibrium (every rate stays as it is); its neighbours change too fast to "
-    "be followed, so that MEGNO is not known")()
+    "equilibrium-too-stiff", "it is an equilibrium (every rate stays as it is); its neighbours change too "
+    "fast to be followed, so that MEGNO is not known")()
 AT_REST = Sentence(
     "megno-of-equilibrium", "it is an equilibrium (every rate stays as it is); whatever becomes of its "
     "neighbours, which MEGNO measures: {megno} after {turns} turns")
