@@ -45,6 +45,9 @@ GROWS = Sentence(
 STAYS = Sentence(
     "megno-stays", "after {turns} turns MEGNO is {megno} ({half} at half that time); it tends to 2 on tori, "
     "to less where neighbours stay or come together")
+AT_REST_STIFF = Sentence(
+    "equilibrium-too-stiff", "it is an equilibrium (every rate stays as it is); its neighbours change too "
+    "fast to be followed, so that MEGNO is not known")()
 AT_REST = Sentence(
     "megno-of-equilibrium", "it is an equilibrium (every rate stays as it is); whatever becomes of its "
     "neighbours, which MEGNO measures: {megno} after {turns} turns")
@@ -90,7 +93,7 @@ class Chaos(Answer):
             return GROWS(turns=turns, megno=megno, half=half)
         if self.megno < FLAT:
             return STAYS(turns=turns, megno=megno, half=half)
-        return AT_REST(turns=turns, megno=megno)
+        return AT_REST(turns=turns, megno=megno) if np.isfinite(self.megno) else AT_REST_STIFF
 
     @property
     def because(self) -> str:

@@ -322,27 +322,28 @@ class Spread:
 
 def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None,
          exact: Exact3 | None = None, ask: dict[str, Any] | None = None) -> Tilt:
-    """What a tilt of the torque does to a bounded motion under a torque on a principal axis.
+    """What a tilt of the torque does to a motion under a torque on a principal axis that is bounded, or never
+    reaches a limit.
 
     scene: of a body; state: three rates; angle: rad, the half-angle of the cone of torques (None: what the
     stuck thrusters of `case` state as their misalignment, else one degree); rate: limit of |omega|, rad/s, or
     three of its components; ask: or any limit by its name as of `time_to` (neither: twice the largest rate of
     the bounded motion). exact: three exact numbers that the state is the rounding of. Raises InputError where
-    the torque is not on an axis, or the motion not bounded.
+    the torque is not on an axis, or no limit stated and the motion not bounded.
     """
     scene, state = checked_scene(scene), three_floats(state)
     if scene.variables == "scaled" or not torque_axis(scene) or kind_of(scene) != "orbit":
         raise InputError("tilt: expected a body under a torque along one of its principal axes, without "
                          "wheel momentum along it")
-    resolved = motion(scene, state, needs=Needs.EXTREMES, exact=exact)
-    if resolved.fate not in STEADY:
+    declared = ask if rate is None else {"rate": rate}
+    resolved = motion(scene, state, needs=Needs.FATE if declared else Needs.EXTREMES, exact=exact)
+    if resolved.fate not in STEADY and not declared:
         raise InputError("tilt: the motion is not bounded as it is: ask time_to of it")
     if angle is None and not (case is not None and any(t.stuck and t.misalignment for t in case.thrusters)):
         angle = DEGREE
     if angle is not None and not 0 < angle < math.pi / 2:
         raise InputError(
             f"tilt: expected an angle between 0 and a quarter turn (pi/2 rad), got {angle!r} rad")
-    declared = ask if rate is None else {"rate": rate}
     question = declared or _twice_the_largest(resolved)
     limit = asked(scene, **question)
     cone = cone_of(scene, case, angle)

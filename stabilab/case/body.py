@@ -297,7 +297,8 @@ def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
     if limits is None or state is None:
         return
     supplied = top.data["motion"].get("angular_velocity", ())
-    plain = [shown(value) for value in supplied if not isinstance(value, str) or isinstance(value, Written)]
+    plain = [shown(value) for value in supplied
+             if (not isinstance(value, str) or isinstance(value, Written)) and float(value)]
     hint = (f'; a number alone is in rad/s, of degrees write "{plain[0]} deg/s"' if plain else "")
     table, degrees = Table(("limits",), top.data["limits"], top.faults), 180 / pi()
     if limits.rate is not None and dot(state, state) > limits.rate**2:

@@ -74,8 +74,8 @@ def _of_case(case: Case):
     """The fields of `StatedLimit` but `until` by [limits] of the case; those of an option below."""
     if case.limits is None:
         raise InputError(f'{case.place}: no limit: give --rate "30 deg/s", --component "z = 30 deg/s", '
-                         f'--energy "5 J", --tilt "z = 20 deg" or --below "5 deg/s", or write '
-                         "[limits] rate")
+                         f'--energy "5 J", --tilt or --nutation "z = 20 deg", --below "5 deg/s" or '
+                         '--nutation-below "z = 5 deg", or write [limits] rate')
     if case.limits.rate is not None:
         return {"rate": case.limits.rate}, "rate", ("|omega|",), (float(case.limits.rate),)
     pairs = [(along(case, FILE_AXES[n]), rate) for n, rate in enumerate(case.limits.rates)]

@@ -148,6 +148,15 @@ def test_a_motion_too_stiff_to_be_followed_is_stopped_and_undecided(monkeypatch,
         assert words.text(case, found).count("\n") == 0
 
 
+def test_of_a_state_at_rest_whose_neighbours_are_too_stiff_no_number_is_printed():
+    """By hand: -C w about a moment of 1e-6 kg m^2 is 5e4/s, some 3e5 times a second's turn."""
+    case = stabilab.load({"body": {"inertia": ["1e-6", 2, 2]}, "effects": {"rate_damper": {"coefficient": "0.05"}},
+                          "motion": {"angular_velocity": [0, 0, 0]}})
+    found = stabilab.chaos(case)
+    assert found.labels == Order.REGULAR and np.isnan(found.megno)
+    assert "nan" not in words.text(case, found) and found.reason.code == "equilibrium-too-stiff"
+
+
 def test_rates_whose_squares_are_no_doubles_are_followed_in_their_own_time():
     """Of a free body every motion is regular, at any rate."""
     found = stabilab.chaos(stabilab.Scene(stabilab.Body((3, 2, 1))), (1e200, 2e200, 3e200))

@@ -92,6 +92,27 @@ def test_a_limit_that_the_bounded_motion_reaches_by_itself_is_told_so():
                                                 rate="0.13").low and found.not_before <= found.untilted[0]
 
 
+def test_a_component_that_a_spin_up_never_has_is_reached_once_the_torque_is_tilted():
+    """DOP853 from the equations, all azimuths in steps of 30 deg, is the reference."""
+    case = package.load({"body": {"inertia": [12, 9, 5]}, "effects": {"constant_torque": {"torque": [0, 0, "0.02"]}},
+                         "motion": {"angular_velocity": [0, 0, "0.1"]}})
+    limit = 0.02 * math.pi / 180
+    found = case.when(component="x = 0.02 deg/s")
+    assert found.high == math.inf  # about the torque's own axis the body spins up, without any other rate
+    D = np.array([12.0, 9, 5])
+
+    def first(torque):
+        event = lambda t, w: abs(w[0]) - limit
+        event.terminal = True
+        run = solve_ivp(lambda t, w: (np.cross(D * w, w) + torque) / D, (0, 200), [0, 0, 0.1], "DOP853",
+                        events=event, rtol=1e-10, atol=1e-14)
+        return float(run.t_events[0][0]) if len(run.t_events[0]) else math.inf
+    assert found.tilt.low == pytest.approx(first(np.array(found.tilt.torque)), rel=1e-4)  # a run of doubles
+    edge = [0.02 * np.array([math.sin(math.pi / 180) * math.cos(a), math.sin(math.pi / 180) * math.sin(a),
+                             math.cos(math.pi / 180)]) for a in np.arange(12) * math.pi / 6]
+    assert found.tilt.low <= min(map(first, edge)) * (1 + 1e-4)
+
+
 @pytest.mark.parametrize("scene, state, words", [
     (package.Scene(BODY, WHEEL, package.ConstantTorque(("0.001", 0, "0.02"))), STATE,
      "a torque along one of its principal axes"),

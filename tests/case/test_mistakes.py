@@ -102,6 +102,7 @@ FIFTY_FIVE = [
      "it is written in [effects.constant_torque]"),
 ]
 MORE = [
+    (RATES, "[0.0, -4.0, 0.5]", 23, "limits.rate", 'of degrees write "-4.0 deg/s"'),
     # units and numbers
     ("1 N +- 6 %", "0.1 kgf", 18, "thrusters.force", "write 9.80665 N for each"),
     ("1 N +- 6 %", "0.1 kg", 18, "thrusters.force", "a force is in N"),
