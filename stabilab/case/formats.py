@@ -106,6 +106,7 @@ def importer_of(text: str) -> Importer:
 BY_HAND = ("write its moments as [body] inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg m^2, "
            "about the centre of mass, and its rates as [motion] angular_velocity = [x, y, z]")
 XML = {"ndm": "a CCSDS navigation data message (XML)",
+       "gazebo": "a simulation description older than SDFormat 1.3, which `gz sdf -p FILE` writes anew",
        "aem": "a CCSDS attitude ephemeris (AEM, XML)",
        "html": "a page (HTML)", "svg": "a picture (SVG)", "collada": "a mesh (COLLADA, XML)"}
 CCSDS = {"APM": "attitude parameter message", "AEM": "attitude ephemeris message",

@@ -1,6 +1,7 @@
 """Robot descriptions (URDF, SDFormat, MJCF) as one rigid body: real files against matrices of 4 x 4, and faults."""
 import tomllib
 import xml.etree.ElementTree as ET
+from decimal import ROUND_DOWN, Decimal
 from pathlib import Path
 
 import numpy as np
@@ -41,9 +42,19 @@ def numbers(text):
     return [float(v) for v in text.split()]
 
 
-def angles(values):
-    """Angles in rad of files, in which 1.5708 is meant as a quarter turn; random ones are not so near."""
-    return [np.pi / 2 * round(v / (np.pi / 2)) if abs(v - np.pi / 2 * round(v / (np.pi / 2))) < 1e-5 else v for v in values]
+QUARTER = Decimal("1.57079632679489661923132169163975")
+
+
+def angles(text):
+    """Angles in rad of files; a multiple of a quarter turn that is rounded or cut off to the digits shown is meant as one."""
+    result = []
+    for word in text.split():
+        number = Decimal(word)
+        multiple = round(number / QUARTER) * QUARTER
+        step = Decimal(1).scaleb(number.as_tuple().exponent)
+        meant = len(number.as_tuple().digits) > 2 and number in (multiple.quantize(step), multiple.quantize(step, ROUND_DOWN))
+        result.append(float(multiple if meant else number))
+    return result
 
 
 def of_urdf(root):
@@ -51,7 +62,7 @@ def of_urdf(root):
     def origin(element):
         at = element.find("origin")
         return np.eye(4) if at is None else placed(numbers(at.get("xyz", "0 0 0")),
-                                                   Rotation.from_euler("xyz", numbers(at.get("rpy", "0 0 0"))))
+                                                   Rotation.from_euler("xyz", angles(at.get("rpy", "0 0 0"))))
     parent = {joint.find("child").get("link"): joint for joint in root.findall("joint")}
 
     def frame(name):
@@ -65,8 +76,8 @@ def of_urdf(root):
 def of_sdf(root):
     def pose(element):
         text = element.findtext("pose") if element is not None else None
-        at = numbers(text) if text else [0] * 6
-        return placed(at[:3], Rotation.from_euler("xyz", angles(at[3:])))
+        parts = (text or "0 0 0 0 0 0").split()
+        return placed([float(v) for v in parts[:3]], Rotation.from_euler("xyz", angles(" ".join(parts[3:]))))
 
     def frame(link):
         relative = link.find("pose").get("relative_to") if link.find("pose") is not None else None
@@ -233,6 +244,9 @@ SDF = "<link name='{}'><inertial><mass>1</mass><inertia><ixx>3</ixx><iyy>2</iyy>
     ("<robot>" + LINK.format("a") + LINK.format("b") + "\n" + JOINT.format("floating", "a", "b") + "</robot>", 2, "move freely"),
     ("<robot>" + LINK.format("a") + LINK.format("b") + "\n" + JOINT.format("hinge", "a", "b") + "</robot>", 2, "expected a type of"),
     ("<robot xmlns:xacro='x'>\n<xacro:macro name='m'/></robot>", 1, "this is a xacro file"),
+    ("<robot>\n" + LINK.format("a").replace("value='1'", "value='${m}'") + "</robot>", 2, "an expression of xacro, \"${m}\", is not"),
+    ("<robot>\n" + LINK.format("a").replace(" iyz='0'", "") + "</robot>", 2, 'expected the attribute iyz: add iyz="0"'),
+    ("\n<!-- -- -->\n<?xml version='1.0'?>\n<robot>\n<link></robot>", 5, "not well-formed XML"),
     ("<robot>\n<link></robot>", 2, "not well-formed XML"),
     ("<!DOCTYPE r [<!ENTITY a 'b'>]>\n<robot/>", 1, "a document type"),
     ("<mujoco>\n<worldbody><body name='a'/></worldbody></mujoco>", 1, "no body has an <inertial>"),
@@ -293,3 +307,47 @@ def test_what_a_model_includes_is_missing_from_every_answer(tmp_path, stabilab):
     (tmp_path / "own.sdf").write_text("<sdf><model name='m'>" + include + SDF.format("a") + tied + "</model></sdf>")
     code, _, err = stabilab("import", tmp_path / "own.sdf")
     assert code == 2 and "no link lens: expected one of the links; files of <include> are not read: import model://camera" in err
+
+
+def test_a_description_of_what_does_not_move_is_a_fault(tmp_path, stabilab):
+    """A floor, as simulators have it: a mass of 0."""
+    nothing = LINK.format("a").replace("'1'", "'0'").replace("'3'", "'0'").replace("'2'", "'0'").replace("'4'", "'0'")
+    (tmp_path / "own.urdf").write_text(f"<robot name='floor'>{nothing}</robot>")
+    code, out, err = stabilab("import", tmp_path / "own.urdf")
+    assert code == 2 and not out and "own.urdf: every link has the mass 0" in err
+
+
+@pytest.mark.parametrize("head, encoding", [
+    ("<!-- (c) -- no \u2265 -->\n<?xml version='1.0' encoding='utf-8'?>", "utf-8"), ("\n  <?xml version='1.0'?>", "utf-8-sig"),
+    ("<?xml version='1.0' encoding='ISO-8859-1'?>", "latin-1"), ("<?xml version='1.0' encoding='gb2312'?>", "utf-8"),
+    ("<?xml version='1.0' encoding='UTF-16'?>", "utf-16")])
+def test_headings_and_encodings_that_simulators_read(tmp_path, stabilab, head, encoding):
+    name = "gyro-\xe9"
+    (tmp_path / "own.urdf").write_bytes(f"{head}\n<robot name='{name}'>{LINK.format('a')}</robot>".encode(encoding))
+    code, out, err = stabilab("import", tmp_path / "own.urdf")
+    assert code == 0, err
+    assert load(out).title == name and read_back(out)[2].tolist() == np.diag([3, 2, 4]).tolist()
+
+
+@pytest.mark.parametrize("angle, turned", [("1.57", True), ("-1.57079", True), ("3.14", True), ("1.58", False), ("3.15", False),
+                                           ("2", False)])
+def test_angles_near_a_quarter_turn_that_are_none_stay(tmp_path, stabilab, angle, turned):
+    """1.57 and 3.14 are pi/2 and pi to two decimals, 1.58 and 3.15 are not; a product of inertia by hand: (3 - 2) sin cos."""
+    link = LINK.format("a").replace("<mass", f"<origin rpy='0 0 {angle}'/><mass")
+    (tmp_path / "own.urdf").write_text(f"<robot name='r'>{link}</robot>")
+    product = read_back(stabilab("import", tmp_path / "own.urdf")[1])[2][0, 1]
+    expected = 0 if turned else np.sin(float(angle)) * np.cos(float(angle))
+    assert product == pytest.approx(expected, abs=1e-11)
+
+
+def test_a_long_description_is_read_and_one_without_end_is_not(tmp_path, stabilab):
+    for size, code in ((200, 0), (4200, 2)):
+        (tmp_path / "own.urdf").write_text(f"<robot name='r'>{LINK.format('a')}<!--{'x' * 1024 * size}--></robot>")
+        result, _, err = stabilab("import", tmp_path / "own.urdf")
+        assert result == code and (code == 0 or "longer than 4096 KiB: this is more than is read" in err)
+
+
+def test_an_old_simulation_description_is_named(tmp_path, stabilab):
+    (tmp_path / "own.sdf").write_text("<gazebo version='1.2'><model name='m'/></gazebo>")
+    code, _, err = stabilab("import", tmp_path / "own.sdf")
+    assert code == 2 and "older than SDFormat 1.3, which `gz sdf -p FILE` writes anew" in err

@@ -26,7 +26,7 @@ from .rigid_pieces import (
 )
 from .xml_tree import Element, fractions, tree
 
-MOVING = ("revolute", "continuous", "prismatic")
+MOVING = ("revolute", "continuous", "prismatic", "spherical")  # the last: of Bullet alone
 FREE = ("floating", "planar")
 KINDS = ("fixed", *MOVING, *FREE)
 WORDS = {"visual": "shapes and meshes that are seen", "collision": "shapes for "

@@ -87,6 +87,9 @@ def combined(craft: Craft, pieces: Sequence[Piece], root: Frame, kind: str, lock
             raise InputError(f"--body {printable(body)}: this {kind} has no mass; those that have one are "
                              f"{_names(heavy)}")
         heavy, root = named, named[0].own
+    if not heavy:
+        raise InputError(f"{printable(str(path))}: every {kind} has the mass 0 and no moments, as one has that "
+                         "does not move, and without them no motion can be found: write its mass and moments")
     where = dict(enumerate(item.frame.seen_from(root) for item in heavy))
     odd = [item for item in heavy if item.odd]
     mass = sum(item.part.mass for item in heavy)
