@@ -56,7 +56,7 @@ def is_apm(text: str) -> bool:
 
 
 # of a head of a table: a moment or a product of inertia
-TABLE_HEAD = r"[ij]_?(xx|yy|zz|xy|xz|yz|yx|zx|zy|11|22|33|12|13|23|21|31|32|[xyz123])"
+TABLE_HEAD = r"(?:moment )?[ij]_?(xx|yy|zz|xy|xz|yz|yx|zx|zy|11|22|33|12|13|23|21|31|32|[xyz123])"
 
 
 def split_head(cell: str) -> tuple[str, str]:

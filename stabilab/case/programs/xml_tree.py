@@ -119,8 +119,9 @@ def tree(text: str, path: Path) -> Element:
         stack[-1].text += characters
 
     def document_type(*_: object) -> None:
-        raise InputError(f"{printable(str(path))}:{parser.CurrentLineNumber + above}: a document type (<!DOCTYPE "
-                         "...>) is not read, as its entities may stand for anything: take it away")
+        line = parser.CurrentLineNumber + above
+        raise InputError(f"{printable(str(path))}:{line}: a document type (<!DOCTYPE ...>) is not read, as "
+                         "its entities may stand for anything: take it away")
 
     parser.buffer_text = True
     parser.StartElementHandler, parser.EndElementHandler = start, end
@@ -128,7 +129,7 @@ def tree(text: str, path: Path) -> Element:
     try:
         parser.Parse(text[begin:].encode(), True)
     except expat.ExpatError as error:
-        words = expat.ErrorString(error.code)
-        raise InputError(f"{printable(str(path))}:{error.lineno + above}: this is not well-formed XML ({words}): "
-                         "correct it there, or write the file anew with the program that made it") from None
+        line, words = error.lineno + above, expat.ErrorString(error.code)
+        raise InputError(f"{printable(str(path))}:{line}: this is not well-formed XML ({words}): correct it "
+                         "there, or write the file anew with the program that made it") from None
     return stack[0].children[0]
