@@ -56,7 +56,7 @@ def is_apm(text: str) -> bool:
 
 
 # of a head of a table: a moment or a product of inertia
-TABLE_HEAD = r"[ij]_?(xx|yy|zz|xy|xz|yz|yx|zx|zy|11|22|33|12|13|23|21|31|32|[xyz123])"
+TABLE_HEAD = r"(?:moment )?[ij]_?(xx|yy|zz|xy|xz|yz|yx|zx|zy|11|22|33|12|13|23|21|31|32|[xyz123])"
 
 
 def split_head(cell: str) -> tuple[str, str]:
@@ -106,6 +106,7 @@ def importer_of(text: str) -> Importer:
 BY_HAND = ("write its moments as [body] inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg m^2, "
            "about the centre of mass, and its rates as [motion] angular_velocity = [x, y, z]")
 XML = {"ndm": "a CCSDS navigation data message (XML)",
+       "gazebo": "a simulation description older than SDFormat 1.3, which `gz sdf -p FILE` writes anew",
        "aem": "a CCSDS attitude ephemeris (AEM, XML)",
        "html": "a page (HTML)", "svg": "a picture (SVG)", "collada": "a mesh (COLLADA, XML)"}
 CCSDS = {"APM": "attitude parameter message", "AEM": "attitude ephemeris message",

@@ -1,6 +1,7 @@
 """Where a case comes from: a file, or text with a name; its table [sweep]."""
 from __future__ import annotations
 
+import codecs
 import copy
 import math
 import os
@@ -33,10 +34,13 @@ EXAMPLES = {"phone": "phone", "t-handle": "t-handle", "top": "toy-top", "cubesat
             "slug": "rahn-barba", "vanguard-1": "vanguard-1", "stage": "burns/stage", "boom": "orbits/boom"}
 QUESTIONS = {"burns": "burn", "orbits": "orbit"}  # folder -> its command
 LARGEST = 128 * 1024  # bytes; a case has one or two thousand, and a wrong file is refused before it is parsed
+LARGEST_IMPORT = 32 * LARGEST  # of another program, such as a description of a humanoid with all its shapes
+_DECLARED = re.compile(rb"\s*<\?xml[^>]*?encoding\s*=\s*[\"']([\w.:-]+)[\"']")
 
 
-def source_text(path) -> str:
-    """The file's text; a directory, a pipe, a device, a long file or other bytes than UTF-8 are refused."""
+def source_text(path, largest: int = LARGEST) -> str:
+    """The file's text; a directory, a pipe, a device, a file of more bytes than `largest`, or other bytes
+    than UTF-8 are refused; an XML file may be in the encoding that it declares."""
     try:
         str(path).encode()
     except UnicodeEncodeError:  # it could not be named in any answer
@@ -46,7 +50,7 @@ def source_text(path) -> str:
         raw = None
         if stat.S_ISREG(mode):  # a pipe without a writer would wait for ever
             with open(path, "rb") as stream:
-                raw = stream.read(LARGEST + 1)
+                raw = stream.read(largest + 1)
     except FileNotFoundError:
         raise CaseError(path, [Problem("", f"no such file{_neighbour(path)}")]) from None
     except (OSError, ValueError) as error:
@@ -56,11 +60,20 @@ def source_text(path) -> str:
     if raw is None:
         kind = "a directory" if stat.S_ISDIR(mode) else "a pipe or a device"
         raise CaseError(path, [Problem("", f"expected a TOML file, this is {kind}")])
-    if len(raw) > LARGEST:
-        raise CaseError(path, [Problem("", f"longer than {LARGEST // 1024} KiB: this is no case file")])
+    if len(raw) > largest:
+        what = "no case file" if largest == LARGEST else "more than is read"
+        raise CaseError(path, [Problem("", f"longer than {largest // 1024} KiB: this is {what}")])
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
+        declared = _DECLARED.match(raw)
+        try:
+            if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+                return raw.decode("utf-16")
+            if declared and declared[1].lower().replace(b"-", b"") != b"utf8":
+                return raw.decode(declared[1].decode())
+        except (LookupError, UnicodeDecodeError):
+            pass
         line = raw.count(b"\n", 0, error.start) + 1
         raise CaseError(path,
                         [Problem("", f"byte 0x{raw[error.start]:02x} is not UTF-8; save the file as UTF-8",

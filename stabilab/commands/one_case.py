@@ -17,7 +17,7 @@ from ..case.formats import IMPORTERS, importer_of
 from ..case.programs.export_urdf import exported
 from ..case.programs.imported import case_text, faults_of
 from ..case.read import Case
-from ..case.source import EXAMPLES, command_of, source_text
+from ..case.source import EXAMPLES, LARGEST_IMPORT, command_of, source_text
 from ..case.source import example as text_of
 from ..case.write import data_of
 from ..cost.accuracy import precision as measure
@@ -65,7 +65,7 @@ def example(name):
 
 def import_(file, out, stuck, body=None):
     """Write the case, name what has no counterpart, and refuse what has faults yet."""
-    supplied = source_text(file)
+    supplied = source_text(file, LARGEST_IMPORT)
     importer = importer_of(supplied)
     if body is not None and not importer.bodies:
         names = ", ".join(item.name for item in IMPORTERS if item.bodies)

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from stabilab import load
 
-FILES = Path(__file__).parent / "exchanged"
+FILES = Path(__file__).parent / "real/apm"
 EARTH = [0, 0, math.degrees(7.2921150e-5)]
 HEAD = "CCSDS_APM_VERS = {}.0\nOBJECT_NAME = OWN\nEPOCH = 2026-01-01T00:00:00\n"
 INERTIA = ("INERTIA_START\nINERTIA_REF_FRAME = SC_BODY_1\nIXX = {}\nIYY = {}\nIZZ = {}\nIXY = {}\nIXZ = 0\nIYZ = 0\n"
@@ -205,3 +205,31 @@ def test_a_fault_has_its_line_and_what_to_do(tmp_path, stabilab, text, line, wor
 def test_rates_that_are_not_known_are_no_motion_and_a_caveat(imported, text, words):
     case, _ = imported(HEAD.format(2) + text)
     assert case.state is None and words in case.caveats[0].words
+
+
+TWICE = ("EULER_FRAME_A = SC_BODY_1\nEULER_FRAME_B = ICRF\nEULER_DIR = B2A\nEULER_ROT_SEQ = {}\nRATE_FRAME = EULER_FRAME_A\n"
+         "Y_ANGLE = -26.78 [deg ]\nX_ANGLE = 46.26 [deg ]\nY_ANGLE = 144.10\nY_RATE = 0.1\nX_RATE = 0.2\nY_RATE = 0.3\n")
+DIAGONAL = "I11 = 3\nI22 = 2\nI33 = 1.5\nI12 = 0\nI13 = 0\nI23 = 0\n"
+
+
+def test_version_1_gives_an_angle_twice_where_its_sequence_does(imported):
+    """As figure 3-6 of CCSDS 504.0-B-1 with the sequence 212; the attitude by SciPy, capital letters about axes of the body."""
+    case, _ = imported(HEAD.format(1) + TWICE.format(212) + DIAGONAL)
+    psi, phi, theta = case.blocks["attitude"]
+    assert Rotation.from_euler("ZXY", [theta, psi, phi]).as_matrix() == pytest.approx(
+        Rotation.from_euler("YXY", [-26.78, 46.26, 144.10], degrees=True).as_matrix(), abs=1e-14)
+    assert case.state is None and "gives Y_RATE twice" in case.caveats[0].words
+
+
+@pytest.mark.parametrize("sequence, words", [(213, "Z_ANGLE is missing"), (121, "X_ANGLE (second) is missing")])
+def test_an_angle_twice_is_a_fault_in_any_other_sequence(tmp_path, stabilab, sequence, words):
+    (tmp_path / "own.txt").write_text(HEAD.format(1) + TWICE.format(sequence) + DIAGONAL)
+    code, _, err = stabilab("import", tmp_path / "own.txt")
+    assert code == 2 and words in err
+
+
+@pytest.mark.parametrize("name", ["APM-spin-nutation.xml", "NDM-ocm-apm.xml"])
+def test_an_attitude_alone_is_no_case(stabilab, name):
+    """Also where the message is one of several in a file."""
+    code, out, err = stabilab("import", FILES / name)
+    assert code == 2 and not out and "has no inertia" in err and len(err.strip().splitlines()) == 1

@@ -1,15 +1,13 @@
-"""Robot descriptions (URDF, SDFormat, MJCF) as one rigid body: real files against matrices of 4 x 4, and faults."""
+"""Robot descriptions (URDF, SDFormat, MJCF) as one rigid body: random trees against matrices of 4 x 4, and faults."""
 import tomllib
 import xml.etree.ElementTree as ET
-from pathlib import Path
+from decimal import ROUND_DOWN, Decimal
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from stabilab import load
-
-FILES = Path(__file__).parent / "exchanged"
 
 
 def placed(xyz, rotation):
@@ -41,9 +39,19 @@ def numbers(text):
     return [float(v) for v in text.split()]
 
 
-def angles(values):
-    """Angles in rad of files, in which 1.5708 is meant as a quarter turn; random ones are not so near."""
-    return [np.pi / 2 * round(v / (np.pi / 2)) if abs(v - np.pi / 2 * round(v / (np.pi / 2))) < 1e-5 else v for v in values]
+QUARTER = Decimal("1.57079632679489661923132169163975")
+
+
+def angles(text):
+    """Angles in rad of files; a multiple of a quarter turn that is rounded or cut off to the digits shown is meant as one."""
+    result = []
+    for word in text.split():
+        number = Decimal(word)
+        multiple = round(number / QUARTER) * QUARTER
+        step = Decimal(1).scaleb(number.as_tuple().exponent)
+        meant = len(number.as_tuple().digits) > 2 and number in (multiple.quantize(step), multiple.quantize(step, ROUND_DOWN))
+        result.append(float(multiple if meant else number))
+    return result
 
 
 def of_urdf(root):
@@ -51,7 +59,7 @@ def of_urdf(root):
     def origin(element):
         at = element.find("origin")
         return np.eye(4) if at is None else placed(numbers(at.get("xyz", "0 0 0")),
-                                                   Rotation.from_euler("xyz", numbers(at.get("rpy", "0 0 0"))))
+                                                   Rotation.from_euler("xyz", angles(at.get("rpy", "0 0 0"))))
     parent = {joint.find("child").get("link"): joint for joint in root.findall("joint")}
 
     def frame(name):
@@ -62,27 +70,49 @@ def of_urdf(root):
                for link in root.findall("link") if (item := link.find("inertial")) is not None)
 
 
-def of_sdf(root):
+def of_sdf(root, folder=None):
+    """Files of includes are in the folder beside that of this one, as collections of models have them."""
     def pose(element):
         text = element.findtext("pose") if element is not None else None
-        at = numbers(text) if text else [0] * 6
-        return placed(at[:3], Rotation.from_euler("xyz", angles(at[3:])))
+        parts = (text or "0 0 0 0 0 0").split()
+        return placed([float(v) for v in parts[:3]], Rotation.from_euler("xyz", angles(" ".join(parts[3:]))))
 
-    def frame(link):
-        relative = link.find("pose").get("relative_to") if link.find("pose") is not None else None
-        relative = relative or link.findtext("child")  # of a joint
-        return (frame(model.find(f"*[@name='{relative}']")) if relative else np.eye(4)) @ pose(link)
+    def relative(element):
+        at = element.find("pose")
+        return (at.get("relative_to") if at is not None else None) or element.findtext("child")  # the last of a joint
+    matrices, links = {"": np.eye(4)}, []
+
+    def collect(model, prefix, own):
+        def full(name):
+            return prefix + name if name and name != "__model__" else own
+        rows = [(item, prefix + item.get("name"), pose(item), full(relative(item) or item.get("attached_to")))
+                for item in model if item.tag in ("link", "joint", "frame")]
+        links.extend((item, name) for item, name, _, _ in rows if item.tag == "link")
+        inner = [(item, item, False) for item in model.findall("model")]
+        for item in model.findall("include"):
+            file = folder.parent / item.findtext("uri").removeprefix("model://") / "model.sdf"
+            inner.append((item, ET.parse(file).getroot().find("model"), item.get("merge") == "true"))
+        for item, other, merged in inner:
+            name = prefix + (item.findtext("name") or other.get("name"))
+            rows.append((item, name, pose(item if item.find("pose") is not None else other), full(relative(item))))
+            collect.later.append((other, prefix if merged else f"{name}::", name))
+        collect.rows += rows
+    collect.rows, collect.later = [], []
+    collect(next(item for item in root.iter("model") if item.findtext("static") not in ("true", "1")), "", "")
+    while collect.later:
+        collect(*collect.later.pop())
+    while len(matrices) < len({name for _, name, _, _ in collect.rows}) + 1:  # whose frame is known, one after the other
+        matrices |= {name: matrices[base] @ at for _, name, at, base in collect.rows if base in matrices and name not in matrices}
 
     def value(element, tag, otherwise):
         text = element.findtext(tag) if element is not None else None
         return float(text or otherwise)
-    model = next(item for item in root.iter("model") if item.findtext("static") not in ("true", "1"))
     total = 0
-    for link in model.findall("link"):
+    for link, name in links:
         item = link.find("inertial")
         inertia = None if item is None else item.find("inertia")
         entries = [value(inertia, key, key[1] == key[2]) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")]
-        total = total + moments(value(item, "mass", 1), symmetric(*entries), frame(link) @ pose(item))
+        total = total + moments(value(item, "mass", 1), symmetric(*entries), matrices[name] @ pose(item))
     return total
 
 
@@ -133,34 +163,12 @@ def read_back(text):
 
 def compared(path, out):
     """To the 12 digits that a case is written in, and what doubles leave."""
-    mass, centre, tensor = about_mass_centre(OF[path.suffix](ET.parse(path).getroot()))
+    more = (path.parent,) if path.suffix == ".sdf" else ()
+    mass, centre, tensor = about_mass_centre(OF[path.suffix](ET.parse(path).getroot(), *more))
     got = read_back(out)
     assert got[0] == pytest.approx(mass, rel=1e-11)
     assert got[1] == pytest.approx(centre, abs=1e-11 * (1 + np.abs(centre).max()))
     assert got[2] == pytest.approx(tensor, abs=2e-11 * np.abs(tensor).max())
-
-
-@pytest.mark.parametrize("name, bodies, caveats", [
-    ("07-physics.urdf", 16, 1), ("cf2x.urdf", 1, 0), ("pr2_gripper.urdf", 3, 1), ("x500_base.sdf", 5, 1),
-    ("rc_cessna.sdf", 12, 1), ("pendulum_links.sdf", 3, 2), ("a1.mjcf.xml", 13, 1), ("cf2.mjcf.xml", 1, 0),
-    ("hand.mjcf.xml", 3, 1)])
-def test_a_file_of_the_field_is_one_rigid_body(stabilab, name, bodies, caveats):
-    code, out, err = stabilab("import", FILES / name)
-    assert code == 0 and (f"{bodies} " in err and "are joined into one rigid body" in err) == (bodies > 1)
-    compared(FILES / name, out)
-    case = load(out)
-    assert len(case.caveats) >= caveats and all(item.kind == "stated" for item in case.caveats[:caveats])
-    if caveats:
-        assert "locked in the position" in case.caveats[caveats - 1].words
-
-
-def test_one_link_alone_is_in_its_own_frame(stabilab):
-    _, out, _ = stabilab("import", FILES / "a1.mjcf.xml", "--body", "trunk")
-    assert read_back(out)[0] == 4.713 and read_back(out)[1].tolist() == [0, 0.0041, -0.0005]
-    assert read_back(out)[2].tolist() == [[0.0158533, -3.66e-5, -6.11e-5], [-3.66e-5, 0.0377999, -2.75e-5],
-                                          [-6.11e-5, -2.75e-5, 0.0456542]]
-    code, _, err = stabilab("import", FILES / "a1.mjcf.xml", "--body", "tail")
-    assert code == 2 and "--body tail: no such body; the file has trunk, FR_hip" in err
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -228,11 +236,14 @@ SDF = "<link name='{}'><inertial><mass>1</mass><inertia><ixx>3</ixx><iyy>2</iyy>
     ("<robot name='r'>\n<link name='a'><inertial>\n<mass value='1'/></inertial></link></robot>", 2, "<inertia> is missing"),
     ("<robot>\n" + LINK.format("a").replace("ixx='3'", "ixx='-3'") + "</robot>", 2, "no body has a mass of 1 kg with these"),
     ("<robot>\n" + LINK.format("a").replace("value='1'", "value='one'") + "</robot>", 2, "<mass> value: expected a decimal"),
-    ("<robot>" + LINK.format("a") + "\n" + LINK.format("b") + "</robot>", 1, "expected one link that is no child of a joint"),
+    ("<robot>" + LINK.format("a") + "\n" + LINK.format("b") + "</robot>", 2, "no joint ties link b to link a"),
     ("<robot>" + LINK.format("a") + "\n" + JOINT.format("fixed", "a", "c") + "</robot>", 2, "no link c"),
     ("<robot>" + LINK.format("a") + LINK.format("b") + "\n" + JOINT.format("floating", "a", "b") + "</robot>", 2, "move freely"),
     ("<robot>" + LINK.format("a") + LINK.format("b") + "\n" + JOINT.format("hinge", "a", "b") + "</robot>", 2, "expected a type of"),
     ("<robot xmlns:xacro='x'>\n<xacro:macro name='m'/></robot>", 1, "this is a xacro file"),
+    ("<robot>\n" + LINK.format("a").replace("value='1'", "value='${m}'") + "</robot>", 2, "an expression of xacro, \"${m}\", is not"),
+    ("<robot>\n" + LINK.format("a").replace(" iyz='0'", "") + "</robot>", 2, 'expected the attribute iyz: add iyz="0"'),
+    ("\n<!-- -- -->\n<?xml version='1.0'?>\n<robot>\n<link></robot>", 5, "not well-formed XML"),
     ("<robot>\n<link></robot>", 2, "not well-formed XML"),
     ("<!DOCTYPE r [<!ENTITY a 'b'>]>\n<robot/>", 1, "a document type"),
     ("<mujoco>\n<worldbody><body name='a'/></worldbody></mujoco>", 1, "no body has an <inertial>"),
@@ -292,4 +303,110 @@ def test_what_a_model_includes_is_missing_from_every_answer(tmp_path, stabilab):
     tied = "<joint name='j' type='fixed'><parent>a</parent><child>lens</child></joint>"
     (tmp_path / "own.sdf").write_text("<sdf><model name='m'>" + include + SDF.format("a") + tied + "</model></sdf>")
     code, _, err = stabilab("import", tmp_path / "own.sdf")
-    assert code == 2 and "no link lens: expected one of the links; files of <include> are not read: import model://camera" in err
+    assert code == 2 and "no link lens: expected one of the links; files of <include> that are not beside this one" in err
+
+
+def test_a_description_of_what_does_not_move_is_a_fault(tmp_path, stabilab):
+    """A floor, as simulators have it: a mass of 0."""
+    nothing = LINK.format("a").replace("'1'", "'0'").replace("'3'", "'0'").replace("'2'", "'0'").replace("'4'", "'0'")
+    (tmp_path / "own.urdf").write_text(f"<robot name='floor'>{nothing}</robot>")
+    code, out, err = stabilab("import", tmp_path / "own.urdf")
+    assert code == 2 and not out and "own.urdf: every link has the mass 0" in err
+
+
+@pytest.mark.parametrize("head, encoding", [
+    ("<!-- (c) -- no \u2265 -->\n<?xml version='1.0' encoding='utf-8'?>", "utf-8"), ("\n  <?xml version='1.0'?>", "utf-8-sig"),
+    ("<?xml version='1.0' encoding='ISO-8859-1'?>", "latin-1"), ("<?xml version='1.0' encoding='gb2312'?>", "utf-8"),
+    ("<?xml version='1.0' encoding='UTF-16'?>", "utf-16")])
+def test_headings_and_encodings_that_simulators_read(tmp_path, stabilab, head, encoding):
+    name = "gyro-\xe9"
+    (tmp_path / "own.urdf").write_bytes(f"{head}\n<robot name='{name}'>{LINK.format('a')}</robot>".encode(encoding))
+    code, out, err = stabilab("import", tmp_path / "own.urdf")
+    assert code == 0, err
+    assert load(out).title == name and read_back(out)[2].tolist() == np.diag([3, 2, 4]).tolist()
+
+
+@pytest.mark.parametrize("angle, turned", [("1.57", True), ("-1.57079", True), ("3.14", True), ("1.58", False), ("3.15", False),
+                                           ("2", False)])
+def test_angles_near_a_quarter_turn_that_are_none_stay(tmp_path, stabilab, angle, turned):
+    """1.57 and 3.14 are pi/2 and pi to two decimals, 1.58 and 3.15 are not; a product of inertia by hand: (3 - 2) sin cos."""
+    link = LINK.format("a").replace("<mass", f"<origin rpy='0 0 {angle}'/><mass")
+    (tmp_path / "own.urdf").write_text(f"<robot name='r'>{link}</robot>")
+    product = read_back(stabilab("import", tmp_path / "own.urdf")[1])[2][0, 1]
+    expected = 0 if turned else np.sin(float(angle)) * np.cos(float(angle))
+    assert product == pytest.approx(expected, abs=1e-11)
+
+
+def test_a_long_description_is_read_and_one_without_end_is_not(tmp_path, stabilab):
+    for size, code in ((200, 0), (4200, 2)):
+        (tmp_path / "own.urdf").write_text(f"<robot name='r'>{LINK.format('a')}<!--{'x' * 1024 * size}--></robot>")
+        result, _, err = stabilab("import", tmp_path / "own.urdf")
+        assert result == code and (code == 0 or "longer than 4096 KiB: this is more than is read" in err)
+
+
+def test_an_old_simulation_description_is_named(tmp_path, stabilab):
+    (tmp_path / "own.sdf").write_text("<gazebo version='1.2'><model name='m'/></gazebo>")
+    code, _, err = stabilab("import", tmp_path / "own.sdf")
+    assert code == 2 and "older than SDFormat 1.3, which `gz sdf -p FILE` writes anew" in err
+
+
+def nested(rng, names, base="", joint=""):
+    """The text of a model of links in a chain, each with its pose, which ends in what `joint` says."""
+    def numbers(n, low=-2):
+        return " ".join(f"{v:.3f}" for v in rng.uniform(low, 2, n))
+    text = base
+    for i, name in enumerate(names):
+        relative = f" relative_to='{names[i - 1]}'" if i else ""
+        text += (f"<link name='{name}'><pose{relative}>{numbers(6)}</pose><inertial><pose>{numbers(6)}</pose><mass>{numbers(1, 1)}</mass>"
+                 "<inertia><ixx>3.1</ixx><iyy>2.2</iyy><izz>4.3</izz><ixy>0.1</ixy></inertia></inertial></link>")
+        text += f"<joint name='j{name}' type='ball'><parent>{names[i - 1]}</parent><child>{name}</child></joint>" if i else ""
+    return text + joint
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_models_inside_a_model_and_of_other_files_are_placed_in_it(tmp_path, stabilab, seed):
+    """One inside the file, placed relative to a link; one of a file beside it, by another name; one of a file, merged."""
+    rng = np.random.default_rng(seed)
+    for name in ("own", "arm", "tip"):
+        (tmp_path / name).mkdir()
+    sdf = "<sdf version='1.9'><model name='{}'>{}</model></sdf>"
+    inner = f"<model name='inside'><pose relative_to='b'>1 2 3 0.1 0.2 0.3</pose>{nested(rng, 'cd')}</model>"
+    (tmp_path / "arm/model.sdf").write_text(sdf.format("arm", "<pose>9 9 9 0 0 0</pose>" + nested(rng, "ef", inner.replace("'b'", "'f'"))))
+    (tmp_path / "tip/model.sdf").write_text(sdf.format("tip", "<pose>0.5 0 0.25 0.3 0 0.1</pose>" + nested(rng, "gh")))
+    text = sdf.format("own", nested(rng, "ab", inner, """
+        <include><uri>model://arm</uri><name>left</name><pose relative_to='inside::c'>0 1 0.5 0.4 0 0.2</pose></include>
+        <include merge='true'><uri>model://tip</uri></include><frame name='hook' attached_to='b'><pose>1 0 0 0 0 0</pose></frame>
+        <joint name='j1' type='fixed'><parent>hook</parent><child>inside</child></joint>
+        <joint name='j2' type='fixed'><parent>inside::d</parent><child>left::e</child></joint>
+        <joint name='j3' type='fixed'><parent>left::f</parent><child>left::inside::c</child></joint>
+        <joint name='j4' type='revolute'><parent>world</parent><child>g</child></joint>
+        <joint name='j5' type='fixed'><parent>a</parent><child>h</child></joint>"""))
+    (tmp_path / "own/model.sdf").write_text(text)
+    code, out, err = stabilab("import", tmp_path / "own/model.sdf")
+    assert code == 0, err
+    compared(tmp_path / "own/model.sdf", out)
+    assert "10 links are joined" in err and "read with it: ../arm/model.sdf, ../tip/model.sdf" in err
+    assert "left::inside::jd" in load(out).caveats[0].words
+    (tmp_path / "own/model.sdf").write_text(text.replace("<child>left::e</child>", "<child>left::x</child>"))
+    code, _, err = stabilab("import", tmp_path / "own/model.sdf")
+    assert code == 2 and "joint j2: no link left::x: expected one of the links" in err
+    (tmp_path / "tip/model.sdf").write_text(sdf.format("tip", "<include><uri>model://own</uri></include>"))
+    code, _, err = stabilab("import", tmp_path / "own/model.sdf")
+    assert code == 2 and "includes itself" in err
+
+
+def test_bodies_of_files_that_a_model_of_mujoco_includes(tmp_path, stabilab):
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "own.xml").write_text("<mujoco><include file='parts/set.xml'/><worldbody><body name='a' pos='0 0 1'>"
+                                      "<inertial pos='0 0 0' mass='1' diaginertia='3 2 4'/><include file='parts/b.xml'/></body></worldbody></mujoco>")
+    (tmp_path / "parts/set.xml").write_text("<mujocoinclude><compiler angle='radian'/></mujocoinclude>")
+    (tmp_path / "parts/b.xml").write_text("<mujoco><body name='b' euler='0 0 0.5'>"
+                                          "<inertial pos='1 0 0' mass='2' diaginertia='1 2 2.5'/></body></mujoco>")
+    code, out, err = stabilab("import", tmp_path / "own.xml")
+    assert code == 0, err
+    J = moments(1, np.diag([3.0, 2, 4]), np.eye(4)) + moments(
+        2, np.diag([1, 2, 2.5]), placed([0, 0, 0], Rotation.from_euler("z", 0.5)) @ placed([1, 0, 0], Rotation.identity()))
+    assert read_back(out)[2] == pytest.approx(about_mass_centre(J)[2], abs=1e-10)
+    (tmp_path / "parts/b.xml").unlink()
+    code, _, err = stabilab("import", tmp_path / "own.xml")
+    assert code == 2 and "<include> file: no file parts/b.xml, which this model includes" in err

@@ -44,6 +44,8 @@ KEYWORDS: dict[str, tuple[str, str | None]] = {
     **dict.fromkeys(("MAN_TOR_1", "MAN_TOR_2", "MAN_TOR_3", "MAN_TOR_X", "MAN_TOR_Y", "MAN_TOR_Z"),
                     (MANEUVER, "N*m"))}
 FRAMES = ("REF_FRAME_A", "REF_FRAME_B")
+# of version 1: angles of a sequence such as 212, which has one of them twice, and their rates
+REPEATED, AGAIN = re.compile(r"[XYZ]_(ANGLE|RATE)"), " (second)"
 STARTS = {"QUAT": QUATERNION, "EULER": EULER, "ANGVEL": RATE, "SPIN": SPIN, "INERTIA": INERTIA,
           "MAN": MANEUVER}
 TAGS = {"quaternionState": QUATERNION, "eulerElementsThree": EULER, "eulerAngleState": EULER,
@@ -98,7 +100,10 @@ class Block:
 
     def add(self, value: Value, unit: str | None) -> None:
         """Take a keyword in; its number and its unit are checked."""
-        if value.key in self.values:
+        key = value.key
+        if REPEATED.fullmatch(key) and key in self.values and key + AGAIN not in self.values:
+            key += AGAIN
+        if key in self.values:
             raise value.fault(f"given twice in this block, first in line {self.values[value.key].line}: keep "
                               "one")
         wanted = None if value.key in FRAMES else KEYWORDS[value.key][1]
@@ -110,7 +115,7 @@ class Block:
             if unit is not None and _plain(unit) != _plain(wanted):
                 raise value.fault(f"expected the unit {f'[{wanted}]' if wanted else 'none'}, got [{unit}]: "
                                   "write the number in that unit, or leave the brackets away where it is")
-        self.values[value.key] = value
+        self.values[key] = value
 
 
 def _plain(unit: str) -> str:

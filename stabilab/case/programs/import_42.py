@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...errors import InputError, printable
-from .imported import Craft
+from .imported import LOCKED, Craft, listed
 from .orbit_42 import Unknown, add_orbit, from_quaternion, name_orbit
 from .parts import ONE, Joint, Part, decimals, joined, parallel, places, rows_of, turn
 
@@ -78,6 +78,8 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
                 f"{path}: {len(parts)} bodies without a mass have no common mass centre; --body N takes one "
                 "alone")
         _together(craft, joined(parts, where), len(bodies))
+        moving = [block for block, rows in _blocks(entries, "joint") if _moves(rows, path)]
+        craft.caveats += [LOCKED.format(listed(moving))] if moving else []
     else:
         _alone(craft, alone, _at_joint(entries), path)
     for block, rows in _blocks(entries, "wheel"):
@@ -167,6 +169,16 @@ def _joint(rows, path) -> Joint:
     turned = after @ turn(angles, str(sequence)) @ before
     inside, outside = (_exact(rows, f"position wrt {word}", 3, path) for word in ("inner", "outer"))
     return Joint(inner, outer, turned, inside + before.T @ slid - turned.T @ outside)
+
+
+def _moves(rows: Sequence[Entry], path: Path) -> bool:
+    """Whether a joint has a degree of freedom that the file does not lock."""
+    for kind in ("rotdof", "trndof"):
+        count = int(_exact(rows, f"{kind}, seq", 2, path)[0])
+        flags = (_value(rows, "", f"{kind} locked") or "").upper().split()
+        if count and flags[:count] != ["TRUE"] * count:
+            return True
+    return False
 
 
 def _static(rows, label, path):

@@ -29,7 +29,7 @@ import numpy as np
 from ...errors import InputError, printable
 from ...numbers.units import pi
 from ..write import exact_text
-from .ccsds import EULER, INERTIA, MANEUVER, QUATERNION, RATE, SPIN, Block, Message, Value, message
+from .ccsds import AGAIN, EULER, INERTIA, MANEUVER, QUATERNION, RATE, SPIN, Block, Message, Value, message
 from .imported import Craft
 from .parts import cosine, full, is_positive, of_quaternion, solved, turn
 
@@ -191,9 +191,14 @@ def _euler(block: Block, new: str, old: str) -> tuple[list[Fraction], str]:
     if not re.fullmatch(r"[123]{3}", sequence) or sequence[0] == sequence[1] or sequence[1] == sequence[2]:
         raise value.fault("expected three axes such as ZXZ or 321, none twice in succession, got "
                           f"{value.text}")
-    letters = ["XYZ"[int(digit) - 1] for digit in sequence]
-    return [_number(block.needed(new.format(n), old.format(letter)))
-            for n, letter in enumerate(letters, 1)], sequence
+    numbers = []
+    for n, digit in enumerate(sequence, 1):
+        key = old.format("XYZ"[int(digit) - 1]) + AGAIN * (digit in sequence[:n - 1])
+        numbers.append(_number(block.needed(new.format(n), key)))
+    for key, second in block.values.items():
+        if key.endswith(AGAIN) and sequence.count(str("XYZ".index(key[0]) + 1)) < 2:
+            raise second.fault(f"given twice in this block, whose sequence is {value.text}: keep one")
+    return numbers, sequence
 
 
 def _between(attitudes: Sequence[tuple[Frames, np.ndarray]], frames: Frames, why: str) -> np.ndarray:
@@ -316,6 +321,8 @@ def _of_euler_rate(block: Block, item: Message, craft: Craft, tensor: np.ndarray
         return frames, _turned(frames, result, turn(angles, sequence))
     if block.value("X_RATE", "Y_RATE", "Z_RATE") is None:
         return None
+    if twice := [key.removesuffix(AGAIN) for key in block.values if key.endswith("_RATE" + AGAIN)]:
+        raise Unknown(f"it gives {twice[0]} twice, which are no components of an angular velocity")
     rates = np.array([_number(block.needed(f"{axis}_RATE")) for axis in "XYZ"])
     if block.value("X_ANGLE", "Y_ANGLE", "Z_ANGLE"):  # of its own angles first, then of other blocks
         attitudes = [(frames, turn(*_euler(block, "ANGLE_{}", "{}_ANGLE"))), *attitudes]

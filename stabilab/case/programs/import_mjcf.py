@@ -7,6 +7,7 @@ small letters, fixed ones in capitals. Joints are where the file places the bodi
 """
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -16,19 +17,18 @@ import numpy as np
 
 from ...errors import printable
 from ...numbers.exact import precise, sqrt_fraction
+from ..source import LARGEST_IMPORT, source_text
 from .imported import Craft
 from .parts import ONE, cosine, of_quaternion, turn, turn_of_radians
 from .rigid_pieces import Frame, Piece, combined, free, judge_inertials, piece, tensor_of, unread
 from .xml_tree import Element, fractions, tree
 
 ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
-WORDS = {"include": "other files", "keyframe": "positions of keyframes", "actuator": "actuators",
-         "tendon": "tendons", "equality": "constraints", "sensor": "sensors", "contact": "contacts",
-         "geom": "shapes and meshes", "plugin": "plugins"}
+WORDS = {"keyframe": "positions of keyframes", "actuator": "actuators", "tendon": "tendons",
+         "equality": "constraints", "sensor": "sensors", "contact": "contacts", "geom": "shapes and meshes",
+         "plugin": "plugins"}
 NOT_READ = {"replicate": "copies of bodies", "attach": "bodies of other models",
             "composite": "composite bodies", "flexcomp": "flexible bodies"}
-
-
 COMPILED = "save the model as MuJoCo compiled it (mj_saveLastXML)"
 
 
@@ -42,6 +42,7 @@ class _Compiler(NamedTuple):
 def read(text: str, path: Path, body: str | None = None) -> Craft:
     """What the model says. Raises InputError where no body, or more than one free of each other, has mass."""
     root = tree(text, path)
+    _include(root, os.path.dirname(os.path.abspath(path)), (os.path.basename(path),))
     compiler = _compiler(root)
     worlds = [*root.all("worldbody")]
     for element in (element for world in worlds for element in world.within() if element.tag in NOT_READ):
@@ -59,10 +60,31 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
                     f"; for moments of shapes {COMPILED}")
     if len(outermost) > 1 and body is None:
         names = ", ".join(printable(name) for name, _, _ in outermost)
-        raise free(root, f"the bodies {names} move freely of each other", "body")
+        raise free(root, f"the bodies {names}", "body")
     craft = Craft(root.attributes.get("model", "") or "model")
-    unread(craft, root, set(), WORDS)
+    unread(craft, [root], WORDS)
     return combined(craft, pieces, outermost[0][1], "body", locked, body, path)
+
+
+def _include(element: Element, folder: str, above: tuple[str, ...]) -> None:
+    """Put what is in files of `<include>`, which count from the folder of the model, in their place."""
+    children = []
+    for child in element.children:
+        if child.tag != "include":
+            _include(child, folder, above)
+            children.append(child)
+            continue
+        name = child.attributes.get("file", "")
+        path = os.path.join(folder, name)
+        if not os.path.isfile(path):
+            raise child.fault(f"no file {name}, which this model includes: put it there, or {COMPILED}",
+                              "file")
+        if name in above:
+            raise child.fault(f"{name} includes itself", "file")
+        inner = tree(source_text(path, LARGEST_IMPORT), Path(path))
+        _include(inner, folder, (*above, name))
+        children += inner.children
+    element.children = children
 
 
 def _compiler(root: Element) -> _Compiler:

@@ -11,29 +11,18 @@ from pathlib import Path
 import numpy as np
 
 from .imported import Craft
+from .joined_links import Joint, Placed, end_of, joined_links, placed
 from .parts import turn_of_radians
-from .rigid_pieces import (
-    Frame,
-    Piece,
-    by_name,
-    combined,
-    free,
-    judge_end,
-    judge_inertials,
-    piece,
-    tensor_of,
-    unread,
-)
+from .rigid_pieces import Frame, Piece, by_name, judge_inertials, piece, tensor_of, unread
 from .xml_tree import Element, fractions, tree
 
-MOVING = ("revolute", "continuous", "prismatic")
+MOVING = ("revolute", "continuous", "prismatic", "spherical")  # the last: of Bullet alone
 FREE = ("floating", "planar")
 KINDS = ("fixed", *MOVING, *FREE)
-WORDS = {"visual": "shapes and meshes that are seen", "collision": "shapes for "
-                                                                   "contact", "transmission": "transmissions",
-         "gazebo": "settings of a simulator", "dynamics": "damping and friction of "
-                                                          "joints", "mimic": "coupled joints",
-         "sensor": "sensors", "ros2_control": "settings of a controller"}
+WORDS = {"visual": "shapes and meshes that are seen", "collision": "shapes for contact",
+         "transmission": "transmissions", "gazebo": "settings of a simulator",
+         "dynamics": "damping and friction of joints", "mimic": "coupled joints", "sensor": "sensors",
+         "ros2_control": "settings of a controller"}
 ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
@@ -47,63 +36,27 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     links = by_name(root.all("link"), "link")
     judge_inertials(root, "link", any(link.one("inertial") for link in links.values()),
                     '<inertial><mass value="..."/><inertia ixx="..." .../></inertial>')
-    joints = [*root.all("joint")]
-    frames, locked, loose = _placed(root, links, joints)
-    pieces = [_piece(link, frames[name]) for name, link in links.items() if name in frames]
-    heavy = {item.name for item in pieces if item.part.mass}
-    for joint, below in loose:
-        if heavy & below and heavy - below and body is None:
-            raise free(joint, f"{joint.name} lets links with mass move freely of each other", "link")
-    craft = Craft(root.name or "robot")
-    unread(craft, root, set(), WORDS)
-    return combined(craft, pieces, Frame(), "link", locked, body, path)
-
-
-def _placed(root: Element, links: dict[str, Element], joints: list[Element]
-            ) -> tuple[dict[str, Frame], list[str], list[tuple[Element, set[str]]]]:
-    """(frame of every link in that of the root, joints that move, (joint, links beyond it) of free ones)."""
-    parents: dict[str, tuple[str, Element]] = {}
+    joints = [_joint(element, links) for element in root.all("joint")]
+    rows = {name: Placed(link, "", Frame()) for name, link in links.items()}
     for joint in joints:
-        if joint.attributes.get("type") not in KINDS:
-            raise joint.fault(f"expected a type of {', '.join(KINDS)}, got "
-                              f"{joint.attributes.get('type')}", "type")
-        ends = []
-        for tag in ("parent", "child"):
-            end = joint.one(tag)
-            name = end.attributes.get("link", "") if end else ""
-            judge_end(joint, name, links, tag)
-            ends.append(name)
-        if ends[1] in parents:
-            raise joint.fault(f"link {ends[1]} is the child of two joints: a description is a tree", "child")
-        parents[ends[1]] = (ends[0], joint)
-    roots = [name for name in links if name not in parents]
-    if len(roots) != 1:
-        raise root.fault(f"expected one link that is no child of a joint, got {', '.join(roots) or 'none'}: "
-                         "tie the links by joints")
-    frames = {roots[0]: Frame()}
-    for name in links:
-        chain = []
-        while name not in frames:
-            if name in chain:
-                raise links[name].fault("its joints go round in a circle: a description is a tree")
-            chain.append(name)
-            name = parents[name][0]
-        for child in reversed(chain):
-            parent, joint = parents[child]
-            frames[child] = frames[parent].then(_origin(joint))
-    locked = [joint.name for joint in joints if joint.attributes["type"] in MOVING]
-    loose = [(joint, _beyond(child, parents)) for child, (_, joint) in parents.items()
-            if joint.attributes["type"] in FREE]
-    return frames, locked, loose
+        if rows[joint.child].relative:
+            raise joint.element.fault(f"link {joint.child} is the child of two joints: a description is a "
+                                      "tree", "child")
+        rows[joint.child] = Placed(joint.element, joint.parent, _origin(joint.element))
+    frames = placed(rows)
+    craft = Craft(root.name or "robot")
+    unread(craft, [root], WORDS)
+    pieces = [_piece(link, frames[name]) for name, link in links.items()]
+    return joined_links(craft, pieces, joints, rows, body, path)
 
 
-def _beyond(child: str, parents: dict[str, tuple[str, Element]]) -> set[str]:
-    """A link and all that hang on it."""
-    result, size = {child}, 0
-    while size != len(result):
-        size = len(result)
-        result |= {name for name, (parent, _) in parents.items() if parent in result}
-    return result
+def _joint(element: Element, links: dict[str, Element]) -> Joint:
+    kind = element.attributes.get("type")
+    if kind not in KINDS:
+        raise element.fault(f"expected a type of {', '.join(KINDS)}, got {kind}", "type")
+    ends = [end_of(element, end.attributes.get("link", "") if (end := element.one(tag)) else "", links, tag)
+            for tag in ("parent", "child")]
+    return Joint(element, element.name, ends[0], ends[1], kind in MOVING, kind not in FREE)
 
 
 def _origin(element: Element) -> Frame:

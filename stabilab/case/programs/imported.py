@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 ELSEWHERE = {"mHub", "r_BcB_B", "IHubPntBc_B", "omega_BN_BInit", "omega_BN_B", "thrLoc_B", "thrDir_B",
              "MaxThrust",
              "maxThrust", "gsHat_B", "Omega", "ModelTag"}
+LARGEST = 12  # names in a sentence
+LOCKED = "of one rigid body, with the joints of the imported file locked in the position that it gives: {}"
 
 
 @dataclass
@@ -134,3 +136,9 @@ def _list(values: Sequence[str] | map[str]) -> str:
 
 def _text(text: str) -> str:
     return json.dumps(printable(text), ensure_ascii=False)
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names for a sentence; of many the first, and how many more there are."""
+    more = f" and {len(names) - LARGEST} more" if len(names) > LARGEST else ""
+    return ", ".join(map(printable, names[:LARGEST])) + more

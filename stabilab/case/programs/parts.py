@@ -133,7 +133,7 @@ def rows_of(part: Part, write: Callable[[Iterable[Fraction]], list[str]] = decim
 
 def turn_of_radians(angles: Iterable[str], sequence: str) -> np.ndarray:
     """The same as `turn` of angles in rad, as they are written. An angle that is a quarter turn to the three
-    digits or more that it shows is one, as 1.5708 is."""
+    digits or more that it shows, rounded or cut off, is one, as 1.5708 and 1.57079 are."""
     result = ONE
     for angle, axis in zip(angles, sequence):
         result = _of(int(axis) - 1, *_quarter(angle)) @ result
@@ -145,7 +145,8 @@ def _quarter(text: str) -> tuple[Fraction, Fraction]:
     angle, half = Fraction(text), precise("pi") / 2
     count = round(angle / half)
     digits = len(text.lower().partition("e")[0].lstrip("+-0.").replace(".", ""))
-    if count and digits >= 3 and abs(angle - count * half) <= 2 * half_unit(text):
+    unit = half_unit(text)
+    if count and digits >= 3 and unit and -1 <= (abs(count) * half - abs(angle)) / unit < 2:
         cosine = (1, 0, -1, 0)[count % 4]
         return Fraction(cosine), Fraction((0, 1, 0, -1)[count % 4])
     if not angle:

@@ -7,12 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import InputError, printable
-from .imported import Craft
+from .imported import LOCKED, Craft, listed
 from .parts import ONE, Part, as_given, decimals, full, is_positive, joined, rows_of
 from .xml_tree import Element, fractions
 
 ORIGIN = 0 * ONE[0]
-LARGEST = 12  # names in a sentence
 
 
 class Frame(NamedTuple):
@@ -87,6 +86,10 @@ def combined(craft: Craft, pieces: Sequence[Piece], root: Frame, kind: str, lock
             raise InputError(f"--body {printable(body)}: this {kind} has no mass; those that have one are "
                              f"{_names(heavy)}")
         heavy, root = named, named[0].own
+    if not heavy:
+        raise InputError(f"{printable(str(path))}: every {kind} has the mass 0 and no moments, as one has "
+                         "that does not move, and without them no motion can be found: write its mass and "
+                         "moments")
     where = dict(enumerate(item.frame.seen_from(root) for item in heavy))
     odd = [item for item in heavy if item.odd]
     mass = sum(item.part.mass for item in heavy)
@@ -102,14 +105,13 @@ def combined(craft: Craft, pieces: Sequence[Piece], root: Frame, kind: str, lock
                           f"rigid body about their common mass centre: {_names(heavy)} (--body NAME takes "
                           "one alone)")
     if locked and len(heavy) > 1:
-        craft.caveats.append("of one rigid body, with the joints of the imported file locked in the position "
-                             f"that it gives: {_list(locked)}")
+        craft.caveats.append(LOCKED.format(listed(locked)))
     if odd:
         craft.caveats.append("no body has the mass and moments that the imported file gives of "
                              f"{_names(odd)}; they count as they are")
     empty = [item.name for item in pieces if item.empty]
     if empty and body is None:
-        craft.said.append(f"without mass, and left out: {_list(empty)}")
+        craft.said.append(f"without mass, and left out: {listed(empty)}")
     return craft
 
 
@@ -132,28 +134,17 @@ def judge_inertials(parent: Element, kind: str, present: bool, example: str, mor
                            f"found: add {example} to a {kind}{more}")
 
 
-def judge_end(joint: Element, name: str, links: Iterable[str], key: str, more: str = "") -> None:
-    """A fault where a joint names no link."""
-    if name not in links:
-        raise joint.fault(f"joint {joint.name}: no link {name or 'is named'}: expected one of the "
-                          f"links{more}", key)
-
-
 def free(element: Element, words: str, kind: str) -> InputError:
     """That parts move freely of each other, in words."""
-    return element.fault(f"{words}: they are no rigid body; --body NAME takes one {kind} alone")
+    return element.fault(f"{words} move freely of each other: they are no rigid body; --body NAME takes one "
+                         f"{kind} alone")
 
 
 def _names(pieces: Sequence[Piece]) -> str:
-    return _list([item.name for item in pieces])
+    return listed([item.name for item in pieces])
 
 
-def _list(names: Sequence[str]) -> str:
-    more = f" and {len(names) - LARGEST} more" if len(names) > LARGEST else ""
-    return ", ".join(map(printable, names[:LARGEST])) + more
-
-
-def unread(craft: Craft, root: Element, read: set[str], words: dict[str, str]) -> None:
-    """Name what the elements inside the root have that is not read. words: what each tag is."""
-    present = {element.tag for element in root.within()} - read
+def unread(craft: Craft, roots: Sequence[Element], words: dict[str, str]) -> None:
+    """Name what the elements inside the roots have that is not read. words: what each tag is."""
+    present = {element.tag for root in roots for element in root.within()}
     craft.omitted += [f"{words[tag]} (<{tag}>)" for tag in words if tag in present]

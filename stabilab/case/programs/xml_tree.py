@@ -2,6 +2,7 @@
 of these formats has one, and entities of it can grow without end."""
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -12,6 +13,8 @@ from ...errors import InputError, printable
 from ...numbers.exact import exact
 
 DEPTH = 200  # of elements inside each other
+_COMMENT = re.compile(r"<!\[CDATA\[.*?\]\]>|<!--.*?-->", re.S)
+_MACRO = re.compile(r"\$[({]")
 
 
 @dataclass
@@ -55,6 +58,9 @@ class Element:
 
     def numbers(self, text: str | None, count: int, key: str = "") -> list[str]:
         """So many numbers of a text, as they are written."""
+        if _MACRO.search(text or ""):
+            raise self.fault(f"an expression of xacro, {_quoted(text)}, is not evaluated: `xacro FILE > "
+                             "robot.urdf` writes the number", key)
         parts = (text or "").split()
         if len(parts) != count:
             wanted = {1: "a number", 3: "three numbers", 4: "four numbers", 6: "six numbers"}[count]
@@ -70,7 +76,8 @@ class Element:
         """The numbers of an attribute; a fault where it is missing and has no default."""
         text = self.attributes.get(key, default)
         if text is None:
-            raise self.fault(f"expected the attribute {key}", key)
+            raise self.fault(f'expected the attribute {key}: add {key}="{" ".join(["0"] * count)}" with its '
+                             f"number{'s' * (count > 1)}", key)
         return self.numbers(text, count, key)
 
 
@@ -83,12 +90,23 @@ def _quoted(text: str | None) -> str:
     return f'"{(text or "")[:60]}"' if text and text.strip() else "nothing"
 
 
+def without_comments(text: str) -> str:
+    """The text with blanks for comments, so that lines stay. Simulators read two things that XML forbids: two
+    dashes inside a comment, and comments or blanks before the declaration."""
+    return _COMMENT.sub(lambda match: match[0] if match[0].startswith("<![") else
+                        re.sub(r"[^\n]", " ", match[0]), text)
+
+
 def tree(text: str, path: Path) -> Element:
     """The root element of a text. Raises InputError where it is not XML."""
-    parser, stack = expat.ParserCreate(), [Element("", {}, 0, path)]
+    # the text is decoded by now, whatever its declaration says of an encoding
+    parser, stack = expat.ParserCreate("utf-8"), [Element("", {}, 0, path)]
+    text = without_comments(text)
+    begin = len(text) - len(text.lstrip())
+    above = text.count("\n", 0, begin)
 
     def start(tag: str, attributes: dict[str, str]) -> None:
-        element = Element(tag.rpartition(":")[2], attributes, parser.CurrentLineNumber, path)
+        element = Element(tag.rpartition(":")[2], attributes, parser.CurrentLineNumber + above, path)
         if len(stack) > DEPTH:
             raise element.fault("nested too deeply to be read")
         stack[-1].children.append(element)
@@ -101,16 +119,17 @@ def tree(text: str, path: Path) -> Element:
         stack[-1].text += characters
 
     def document_type(*_: object) -> None:
-        raise InputError(f"{printable(str(path))}:{parser.CurrentLineNumber}: a document type (<!DOCTYPE "
-                         "...>) is not read, as its entities may stand for anything: take it away")
+        line = parser.CurrentLineNumber + above
+        raise InputError(f"{printable(str(path))}:{line}: a document type (<!DOCTYPE ...>) is not read, as "
+                         "its entities may stand for anything: take it away")
 
     parser.buffer_text = True
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.CharacterDataHandler, parser.StartDoctypeDeclHandler = data, document_type
     try:
-        parser.Parse(text.encode(), True)
+        parser.Parse(text[begin:].encode(), True)
     except expat.ExpatError as error:
-        words = expat.ErrorString(error.code)
-        raise InputError(f"{printable(str(path))}:{error.lineno}: this is not well-formed XML ({words}): "
-                         "correct it there, or write the file anew with the program that made it") from None
+        line, words = error.lineno + above, expat.ErrorString(error.code)
+        raise InputError(f"{printable(str(path))}:{line}: this is not well-formed XML ({words}): correct it "
+                         "there, or write the file anew with the program that made it") from None
     return stack[0].children[0]
