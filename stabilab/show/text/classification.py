@@ -39,7 +39,7 @@ from .motion import (
 )
 
 if TYPE_CHECKING:
-    from ...answers.attitude_result import Attitude
+    from ...answers.turning.result import Attitude
     from ...case.read import Case
     from ...equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint
     from ...orbit.result import Motion

@@ -21,7 +21,7 @@ from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, numbe
 from .headline import largest_key, rate_margin, span_words
 
 if TYPE_CHECKING:
-    from ...answers.attitude_result import Attitude
+    from ...answers.turning.result import Attitude
     from ...case.read import Case
     from ...physics.symmetric_top import TopRates
 
@@ -244,7 +244,8 @@ def numbers(m) -> dict:
 # of a lean: whether it stays near that of a steady precession
 STAYS = {True: "stable", False: "unstable", None: "of undecided stability"}
 MODES = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": HEADS["separatrix"],
-         "steady": HEADS["equilibrium"], "heavy top": "HEAVY TOP"}
+         "steady": HEADS["equilibrium"], "heavy top": "HEAVY TOP",
+         "top in a field": "TOP IN A FIELD"}
 
 
 def attitude_objects(rows) -> dict:
