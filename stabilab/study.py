@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     import matplotlib.axes
     from numpy.typing import ArrayLike
 
-    from .answers.attitude_result import Attitude
     from .answers.dissipation.flat_spin import FlatSpin
     from .answers.dissipation.gyrostat import GyrostatSpin
     from .answers.dissipation.rotations import Rotations
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
     from .answers.simulate import Simulation
     from .answers.stuck.burn import Burned
     from .answers.stuck.margins import Stuck
+    from .answers.turning.result import Attitude
     from .answers.when import Crossings
     from .case.given import Amount, Given, Span, Start, Starts
     from .equilibrium.result import Equilibria

@@ -35,7 +35,7 @@ ANSWERS = {"Motions": "stabilab.answers.motions.result", "Values": "stabilab.ans
            "SpinUp": "stabilab.unreduced.spin_up.result", "Trajectory": "stabilab.integrate.trajectory",
            "Simulation": "stabilab.answers.simulate",
            "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.margins",
-           "Attitude": "stabilab.answers.attitude_result", "Crossings": "stabilab.answers.when",
+           "Attitude": "stabilab.answers.turning.result", "Crossings": "stabilab.answers.when",
            "Angles": "stabilab.answers.motions.angles",
            "Burned": "stabilab.answers.stuck.burn",
            "Closed": "stabilab.answers.stuck.burn",

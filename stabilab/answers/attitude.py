@@ -15,26 +15,9 @@ that H goes round, c the other one with an extreme moment, b the intermediate ax
     mean rate = (H/D_a) [1 - (H^2 - 2T D_a)/(H^2 - D_a^2 A^2) Pi(n, m)/K(m)]
     n = -m D_a^2 A^2/(H^2 - D_a^2 A^2)
 
-in exact fractions and balls. Motions with wheels and under a torque: `attitude_followed`.
+in exact fractions and balls. Motions with wheels and under a torque: `turning.followed`.
 
-A heavy symmetric top, by Lagrange's cubic.
-
-A body with D_j = D_k = A turns about a fixed point under its weight, which acts on axis i at the moment P = M
-g c; a wheel may turn about that axis. Constant are the momentum about it, L = D_i omega_i + lambda_i, the
-momentum about the vertical and the energy. With u the cosine of the lean, between the upward vertical and the
-direction from the fixed point to the centre of mass (Landau & Lifshitz, Mechanics, section 35),
-
-    u'^2 = F(u) = (1 - u^2)(eps - beta u) - (kappa - a u)^2,    beta = 2 |P|/A,  a = L/A,
-    eps = omega_j^2 + omega_k^2 + beta u,    kappa = (D omega + lambda) . gamma/A, up to its sign.
-
-u goes to and fro between the lower two roots of F, u_1 <= u <= u_2 <= 1 <= u_3: with m = (u_2 - u_1)/(u_3 -
-u_1)
-
-    nutation period = 4 K(m) / (beta (u_3 - u_1))^(1/2),
-
-and the axis precesses at the rate (kappa - a u)/(1 - u^2), half the sum of (kappa - a)/(1 - u) and (kappa +
-a)/(1 + u), whose means over that period are integrals of the third kind. Where |gamma| = g is not quite one,
-u is between -g and g. Exact fractions and balls."""
+Symmetric tops, under their weight and in a field: `turning.of_top`."""
 from __future__ import annotations
 
 import math
@@ -45,21 +28,24 @@ from typing import Any
 
 from ..case.given import Given, Span, Start, as_case, with_start
 from ..errors import InputError, ToleranceNotMet
-from ..numbers.balls import Digits, Unclear, settled
-from ..numbers.vectors import CYCLE, dot
+from ..numbers.balls import Digits, settled
+from ..numbers.vectors import dot
 from ..orbit.one_orbit import Orbit
 from ..orbit.period import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs
 from ..physics.scene import AnyScene, Scene
-from ..physics.symmetric_top import top_rates
+from ..physics.symmetric_top import SymmetricTop
 from ..reasons import Sentence, as_reason
-from .attitude_result import (
+from .caveats import limited
+from .digits_asked import MOST_DIGITS, checked_digits, digits_of
+from .motion import motion
+from .turning.of_top import of_top
+from .turning.result import (
     LONG,
     ROUND_AXIS,
     SEPARATRIX,
     SHORT,
-    TOP,
     Attitude,
     bits_of,
     narrow,
@@ -67,119 +53,6 @@ from .attitude_result import (
     turned,
     with_periods,
 )
-from .caveats import limited
-from .digits_asked import MOST_DIGITS, checked_digits, digits_of
-from .motion import motion
-
-# --- A heavy symmetric top
-UPRIGHT = Sentence(
-    "top-through-vertical", "the axis passes through the vertical, where it has no precession")()
-ON_VERTICAL = Sentence("top-on-vertical", "the axis stands on the vertical")()
-TO_AND_FRO = Sentence(
-    "top-nutates", "the lean goes to and fro between two roots of Lagrange's cubic")()
-STEADY_LEAN = Sentence("top-precesses-steadily", "the axis keeps its lean and precesses about the vertical")()
-NEARLY_STEADY = Sentence(
-    "top-precesses-steadily-nearly", "the axis keeps its lean, but for what the rounding of its start to "
-    "doubles adds, and precesses about the vertical")()
-TO_VERTICAL = Sentence(
-    "top-tends-to-vertical", "the axis comes ever closer to the vertical and does not come back")()
-
-ROUNDED = 1e-13  # rad, of a lean: less comes of rounding
-
-
-def axis_of_top(scene: Any) -> int | None:
-    """The axis of a heavy symmetric top, which its weight and its wheels act on alone; None of other scenes.
-    """
-    if {effect.name for effect in scene.effects} - {"gyrostat"} != {"gravity"}:
-        return None
-    D, wheel = scene.body.exact, scene.vector("gyrostat")
-    along = [i for i, weight in enumerate(scene.vector("gravity")) if weight]
-    if len(along) != 1:
-        return None
-    j, k = CYCLE[along[0]]
-    return along[0] if D[j] == D[k] and not wheel[j] and not wheel[k] else None
-
-
-def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, digits: int | None = None
-           ) -> Attitude:
-    """base: what is known at the start, three rates and the vertical; digits: of the periods."""
-    top = _Top(scene, axis, start)
-    base = replace(base, top=top_rates(scene, start))
-    if top.vertical:
-        return replace(steady(base, start[:3], digits), reason=ON_VERTICAL)
-    balls: list[Any] = settled(
-        lambda numbers: [None if item is None else narrow(item, digits) for item in top.answer(numbers)],
-        bits_of(digits))
-    smallest, greatest, nutation, precession = balls
-    if smallest is None and not top.steady:
-        return replace(base, mode=SEPARATRIX, reason=TO_VERTICAL)
-    nearly = nutation is not None and float(greatest - smallest) < ROUNDED
-    steadily = STEADY_LEAN if top.steady else NEARLY_STEADY if nearly else TO_AND_FRO
-    reason = steadily.then(UPRIGHT if precession is None else None)
-    nutation = None if nearly else nutation
-    result = replace(base, mode=TOP, lean=(float(smallest.mid()), float(greatest.mid())),
-                    reason=reason)
-    return with_periods(result, {"nutation_period": nutation, "precession_period": precession}, digits)
-
-
-class _Top:
-    """The constants of the cubic, of u = +-gamma_i."""
-
-    def __init__(self, scene: Scene, axis: int, start: Sequence[Fraction]) -> None:
-        j, k = CYCLE[axis]
-        D, wheel = scene.body.exact, scene.vector("gyrostat")
-        omega, gamma = start[:3], start[3:]
-        arm = scene.vector("gravity")[axis]  # times the weight, N m
-        momentum = [d * w + l for d, w, l in zip(D, omega, wheel)]
-        up = -1 if arm > 0 else 1  # gamma is the direction of the weight
-        u, self.square = up * gamma[axis], dot(gamma, gamma)
-        beta, self.a = 2 * abs(arm) / D[j], momentum[axis] / D[j]
-        self.kappa = up * dot(momentum, gamma) / D[j]
-        eps = omega[j] ** 2 + omega[k] ** 2 + beta * u
-        self.u, self.beta = u, beta
-        self.cubic = (self.square * eps - self.kappa**2, 2 * self.kappa * self.a - self.square * beta,
-                      -eps - self.a**2, beta)
-        slope = self.cubic[1] + 2 * self.cubic[2] * u + 3 * beta * u * u
-        self.steady = not slope and not sum(c * u**n for n, c in enumerate(self.cubic))
-        self.vertical = self.steady and u * u == self.square
-        # at u = g and u = -g the cubic is -(kappa -+ a g)^2
-        tie, sign = self.kappa**2 == self.a**2 * self.square, self.kappa * self.a
-        self.down = tie and sign <= 0
-        self.up = tie and sign >= 0 and eps > 0 and eps**2 > beta**2 * self.square
-
-    def answer(self, numbers: Digits) -> tuple[Any, Any, Any, Any]:
-        """(least, greatest lean, nutation period, precession period) in balls; None what it does not have."""
-        g, a, kappa = numbers.ball(self.square).sqrt(), numbers.ball(self.a), numbers.ball(self.kappa)
-        if self.steady:
-            u, turns = numbers.ball(self.u), self.kappa != self.a * self.u
-            rate = g * (kappa - a * u) / (g * g - u * u)
-            return _lean(u / g), _lean(u / g), None, _period(numbers, rate) if turns else None
-        roots = [(root, many) for root, many in numbers.real_roots(self.cubic) for _ in range(many)]
-        if len(roots) < 3:
-            raise Unclear
-        (low, _), (high, many), (far, _) = roots
-        if many > 1:
-            return None, None, None, None
-        low, high = -g if self.down else low, g if self.up else high
-        swing, m = high - low, (high - low) / (far - low)
-        ends = (numbers.ball(0) if self.up else _lean(high / g),
-                numbers.pi() if self.down else _lean(low / g))
-        full, _ = numbers.elliptic(numbers.ball(0), m)
-        nutation = 4 * full / (numbers.ball(self.beta) * (far - low)).sqrt()
-        if self.up or self.down:
-            return *ends, nutation, None
-        ahead = numbers.elliptic(swing / (g - low), m)[1] / (full * (g - low))
-        behind = numbers.elliptic(-swing / (g + low), m)[1] / (full * (g + low))
-        return *ends, nutation, _period(numbers, ((kappa - a * g) * ahead + (kappa + a * g) * behind) / 2)
-
-
-def _period(numbers: Digits, rate: Any) -> Any:
-    return 2 * numbers.pi() / abs(rate)
-
-
-def _lean(cosine: Any) -> Any:
-    """Its angle, without loss where it is near one."""
-    return 2 * ((1 - cosine) / 2).sqrt().asin()
 
 
 # --- How a body turns
@@ -188,11 +61,11 @@ def attitude(scene: Given, state: Start | None = None, digits: int | None = None
              frame: str = "principal") -> Attitude:
     """How the motion of a case turns in space.
 
-    scene: a case in any form, or a scene, of a body with wheels and a constant torque, or of a heavy
-    symmetric top; state, span, frame: in place of its own, as of `fate`. digits: 1 to 10,000, of the periods,
-    which are then written out too. Raises InputError for scaled variables, which have no attitude, for other
-    effects, and as `motion` does; ToleranceNotMet where the periods of a motion that is followed have fewer
-    digits.
+    scene: a case in any form, or a scene, of a body with wheels and a constant torque, or of a symmetric top
+    under its weight, in a Newtonian field or with a charge; state, span, frame: in place of its own, as of
+    `fate`. digits: 1 to 10,000, of the periods, which are then written out too. Raises InputError for scaled
+    variables, which have no attitude, for other effects, and as `motion` does; ToleranceNotMet where the
+    periods of a motion that is followed have fewer digits.
     """
     digits = None if digits is None else checked_digits(digits, MOST_DIGITS)
     case = with_start(as_case(scene, state, span, frame), "attitude")
@@ -200,15 +73,17 @@ def attitude(scene: Given, state: Start | None = None, digits: int | None = None
     if of.variables == "scaled":
         raise InputError("attitude: scaled variables have no attitude: give body, wheel and torque, and the "
                          "motion as angular_velocity, in rad/s")
-    axis = None if of.plain else axis_of_top(of)
-    if not of.plain and axis is None:
+    top = None if of.plain else SymmetricTop.of(of)
+    if not of.plain and top is None:
         others = ", ".join(sorted({effect.with_article for effect in of.beyond}))
+        angles = "--angles gives Euler angles of the vertical over time, " * ("gamma" in of.blocks)
         raise InputError("attitude: it is known of a body with wheels and a torque constant in the body, and "
-                         f"of a heavy symmetric top; this scene also has {others}")
+                         "of a symmetric top under its weight or in a field, with wheels along its axis; "
+                         f"this scene also has {others}. simulate {angles}--attitude the turn in space")
     result = limited(motion(of, start, needs=Needs.RETURN, exact=exact), of, case)
-    if axis is None:
+    if top is None:
         return of_motion(of, exact, result, digits)
-    return of_top(of, axis, (*exact, *map(Fraction, result.at[3:])), _at_start(of, exact, result), digits)
+    return of_top(of, top, (*exact, *map(Fraction, result.at[3:])), _at_start(of, exact, result), digits)
 
 
 ON_A_SEPARATRIX = Sentence(
@@ -230,7 +105,7 @@ def of_motion(scene: Scene, omega: Sequence[float | Fraction], result: Motion, d
         return replace(base, reason=NOT_KNOWN_TO_REPEAT.then(result.reason, ": "))
     if in_closed_form(scene):
         return _of_free_body(scene.body.exact, exact, base, digits)
-    from .attitude_followed import followed
+    from .turning.followed import followed
     answer = followed(scene, base, result, result.period)
     if digits is not None and any(scene.vector("constant_torque")) and (reduction := reduce(scene)):
         ball = period_ball(Orbit(reduction, exact), digits + 1)

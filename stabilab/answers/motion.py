@@ -14,6 +14,7 @@ from ..orbit.result import Fate, Motion
 from ..orbit.result import Needs as Needs
 from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, loses, split
 from ..physics.scene import AnyScene
+from ..physics.symmetric_top import top_rates
 from ..unreduced.flips import flips_of
 from ..validation import checked_span, is_case, scene_and_state
 from .caveats import limited
@@ -55,9 +56,15 @@ def motion(scene: Any, state: Any = None, span: Any = None, needs: Needs = Needs
     integral = (None if not needs & Needs.INVARIANTS or not twin.plain
                 else energy_integral(twin, exact or result.at[:3], result.margin_energy))
     result = replace(result, largest=_largest(twin, result) if needs & Needs.LARGEST else None,
-                    flips=flips_of(scene, result) if needs & Needs.FLIPS else None, energy_integral=integral)
+                    flips=flips_of(scene, result) if needs & Needs.FLIPS else None, energy_integral=integral,
+                    top=top_rates(scene, _start(exact, result)) if needs & Needs.INVARIANTS else None)
     result = limited(result, scene, case)
     return result if own is None or not needs & Needs.ENDING else with_ending(own, result)
+
+
+def _start(exact: Sequence[Fraction] | None, result: Motion) -> Sequence[Any]:
+    """The start as it was written, where that is all of it, else its doubles."""
+    return exact if exact is not None and len(exact) >= len(result.at) else result.at
 
 
 def with_ending(case: Case, result: Motion) -> Motion:

@@ -13,6 +13,7 @@ from ..representation import Answer
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
+    from ..physics.symmetric_top import TopRates
     from .reduction import EnergyIntegral
 
 
@@ -166,6 +167,7 @@ class Motion(Answer, Reasoned):
     None where it does not, or where that is not known (`unreduced.flips`). energy_integral: the paper's
     G1, G2 or G3 (`orbit.reduction`), under a torque along a principal axis with no wheel along it.
     ending: how a motion that loses energy ends, and when (`answers.dissipation.ending`), where it does.
+    top: of a symmetric top its rates of steady precession and their stability (`physics.symmetric_top`).
     level: of the fate, "exact", "certified" (a theorem applied to a run of machine precision) or
     "undecided". reason: why it has this fate, of which words are taken as they are; because: the same in
     words, in SI units. Of motions that were followed until a certificate held, or as long as was asked:
@@ -201,6 +203,7 @@ class Motion(Answer, Reasoned):
     energy_integral: EnergyIntegral | None = None
     stability: Stability | None = None
     ending: Any = None
+    top: TopRates | None = None
     margin: float = field(default=math.nan, repr=False, compare=False)
     code: int = field(default=-1, repr=False, compare=False)
     returns: float = field(default=math.nan, repr=False, compare=False)

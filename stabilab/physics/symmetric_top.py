@@ -13,7 +13,15 @@ lean and spin omega . e, which stays,
     A W^2 u - L W + V' = 0    where the axis precesses at the rate W about the upward vertical,
 
 with real W where L^2 >= 4 A u V'. Upright (u = 1) and hanging (u = -1) the axis stays near the vertical where
-L^2 > 4 A u V' (`equilibrium.field_balance`: Lagrange's cubic)."""
+L^2 > 4 A u V' (`equilibrium.field_balance`: Lagrange's cubic).
+
+The momentum about the vertical is constant, too, G(u) = A (1 - u^2) W with G' = -L(u), so that the lean moves
+in U = G^2/(2 A (1 - u^2)) + V with U' = A W^2 u - L W + V' and, where that is zero,
+
+    U'' = (2 A u W - L)^2/(A (1 - u^2)) + A W^2 - E W + N (C - A).
+
+The lean stays near it where U'' > 0, at whatever small change of the constants, and a small nutation then
+has the rate ((1 - u^2) U''/A)^(1/2); it leaves where U'' < 0. Without field and charge U'' > 0 always."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -32,6 +40,8 @@ from .scene import AnyScene
 LEVEL = Fraction(1, 1 << 120)
 # of a cosine: nearer to one the axis is on the vertical, as far as doubles distinguish it
 UPRIGHT = Fraction(1, 1 << 50)
+# of the terms of U'': where their sum is smaller, its sign is not known
+CANCELLED = Fraction(1, 1 << 100)
 SLOW, FAST = "slow", "fast"
 
 
@@ -47,12 +57,16 @@ class Precession(NamedTuple):
 class TopRates(NamedTuple):
     """Of a top at one state. spin: of the body about its axis, rad/s; lean: from the upward vertical, rad;
     steady, spins: the rates of steady precession at this lean, and the spins (at most, at least) that have
-    some, as of `Precession`; upright, hanging: (lower, upper) spin between which the axis is unstable there,
-    None where at none."""
+    some, as of `Precession`; stable: of each rate, whether the lean stays near, None where a term of higher
+    order decides; nutation: of each, the rate of a small nutation about it, rad/s, None where it is not
+    stable. upright, hanging: (lower, upper) spin between which the axis is unstable there, None where at
+    none."""
 
     spin: float
     lean: float
     steady: tuple[float, ...]
+    stable: tuple[bool | None, ...]
+    nutation: tuple[float | None, ...]
     spins: tuple[float, float] | None
     upright: tuple[float, float] | None
     hanging: tuple[float, float] | None
@@ -126,6 +140,13 @@ class SymmetricTop:
         slow, fast = 2 * pull / larger, larger / (2 * self.A * u)
         return Precession((slow,) if not root else (slow, fast), spins)
 
+    def bend(self, spin: Fraction, u: Fraction, W: Fraction) -> Fraction:
+        """U'' at a steady precession off the vertical, N m: zero where its terms cancel."""
+        turn = 2 * self.A * u * W - self.momentum(spin, u)
+        terms = (turn * turn / (self.A * (1 - u * u)), self.A * W * W, -self.charge * W, self.field)
+        total = sum(terms, Fraction(0))
+        return total if abs(total) > CANCELLED * sum(map(abs, terms)) else Fraction(0)
+
     def critical(self, u: int) -> tuple[Fraction, Fraction] | None:
         """(lower, upper) spin, rad/s, between which the axis upright (u = 1) or hanging (-1) is unstable;
         None where it is at none."""
@@ -135,7 +156,10 @@ class SymmetricTop:
         """What is known of the spin and lean of a state."""
         spin, u = self.seen(omega, gamma)
         found = Precession((), None) if abs(u) > 1 - UPRIGHT else self.precession(spin, u)
+        bends = [self.bend(spin, u, W) for W in found.rates]
         return TopRates(float(spin), acos(max(-1.0, min(1.0, float(u)))), tuple(map(float, found.rates)),
+                        tuple(bend > 0 if bend else None for bend in bends),
+                        tuple(sqrt((1 - u * u) * bend / self.A) if bend > 0 else None for bend in bends),
                         _floats(found.spins), _floats(self.critical(1)), _floats(self.critical(-1)))
 
     def leans(self, spin: Fraction) -> list[tuple[float, float]]:
@@ -190,9 +214,9 @@ class SymmetricTop:
 def top_rates(scene: AnyScene, start: Sequence[float | Fraction]) -> TopRates | None:
     """What is known of the spin and lean of a scene at a start, which begins with omega and gamma; None where
     it is no symmetric top."""
-    top = SymmetricTop.of(scene)
     omega, gamma = (tuple(Fraction(v) for v in part) for part in (start[:3], start[3:6]))
-    return None if top is None or len(gamma) < 3 or not any(gamma) else top.at(omega, gamma)
+    top = SymmetricTop.of(scene) if len(gamma) == 3 and any(gamma) else None
+    return None if top is None else top.at(omega, gamma)
 
 
 def _floats(ends: tuple[Fraction, Fraction] | None) -> tuple[float, float] | None:

@@ -47,7 +47,7 @@ DOORS = {
     ("stabilab.case.motion", "stabilab.case.observed"): "loaded where a start is stated as it is observed",
     ("stabilab.physics.effects.wheel_motor",
      "stabilab.physics.effects.gyrostat"): "an effect is loaded where a scene names it, or a motor stops",
-    ("stabilab.answers.attitude", "stabilab.answers.attitude_followed"): "loads numpy",
+    ("stabilab.answers.attitude", "stabilab.answers.turning.followed"): "loads numpy",
     ("stabilab.commands.common", "stabilab.maps.percentiles"): "loads numpy, where draws are asked for",
     ("stabilab.answers.motion", "stabilab.answers.at_equilibrium"): "loaded for states of equilibrium alone",
     ("stabilab.answers.at_equilibrium", "stabilab.physics.to_numpy"): "loads numpy",

@@ -46,7 +46,6 @@ from ...orbit.result import Motion
 from ...physics.scene import Scene
 from ...reasons import Mass, Quantity, Rate, Reason, Reasoned, Sentence, Time, chained
 from ..attitude import of_motion
-from ..attitude_result import Attitude
 from ..caveats import of_case
 from ..limit import Limit, asked, starts_above
 from ..motion import motion
@@ -54,6 +53,7 @@ from ..motions.rows import periods
 from ..passage import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
 from ..simulate import trajectory
 from ..time_to import AT_THE_START, NOT_WITHIN
+from ..turning.result import Attitude
 from .chain import (
     RUN_STEPS,
     Chain,

@@ -18,7 +18,6 @@ from ...case.uncertain import NORMAL, SIGMAS, UNIFORM
 from ...equilibrium.description import GREATER, LESSER, RATE, Description, holds_rates
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
-from ...physics.symmetric_top import top_rates
 from ...reasons import Quantity, Reason
 from ...representation import values_of
 from .. import ending, frame
@@ -36,12 +35,11 @@ from .motion import (
     table,
     tilt_lines,
     top_key,
-    top_lines,
     why,
 )
 
 if TYPE_CHECKING:
-    from ...answers.attitude_result import Attitude
+    from ...answers.turning.result import Attitude
     from ...case.read import Case
     from ...equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint
     from ...orbit.result import Motion
@@ -59,7 +57,6 @@ def text(case: Case, equilibria: Equilibria, motion: Motion | None, turning: Att
     lines = [f"{case.name}: {answer}", *([written(case.title)] if case.title else [])]
     if motion is not None:
         lines += [*table(case, motion, units), *(row(*fact) for fact in attitude_rows(turning, units)),
-                  *top_lines(top_rates(case.scene, case.start or ()), units),
                   *tilt_lines(case, motion, units, proofs),
                   *why(case, motion, units, proofs)]
     lines += ["" if motion is None else f"equilibria: {resting(equilibria, units)}",
@@ -241,7 +238,7 @@ def as_dict(case: Case, equilibria: Equilibria, motion: Motion | None) -> dict:
                            "points": [_point_dict(case, p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve_dict(case, c) for c in equilibria.curves]},
             "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at),
-            **top_key(top_rates(case.scene, case.start or ()))}
+            **top_key(None if motion is None else motion.top)}
 
 
 def _counts_dict(equilibria: Equilibria) -> dict:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ...equilibrium.circular_orbit import yaw_pitch_roll
 from ...orbit.result import HEADS, Motion
+from ...physics.symmetric_top import FAST, SLOW
 from ...reasons import outward
 from ...representation import values_of
 from .. import ending, frame, limiting
@@ -20,7 +21,7 @@ from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, numbe
 from .headline import largest_key, rate_margin, span_words
 
 if TYPE_CHECKING:
-    from ...answers.attitude_result import Attitude
+    from ...answers.turning.result import Attitude
     from ...case.read import Case
     from ...physics.symmetric_top import TopRates
 
@@ -74,7 +75,7 @@ def margins(motion: Motion, units: Units) -> list[tuple[str, str]]:
              ("margin, energy", "" if energy is None else energy_margin(energy, units.energy)),
              *energy_integral(motion, units),
              ("period", "" if motion.period is None else units.time(motion.period)),
-             ("time constants", ending.constants(motion.ending, units)))
+             ("time constants", ending.constants(motion.ending, units)), *top_rows(motion.top, units))
     return [(name, text) for name, text in result if text]
 
 
@@ -240,8 +241,11 @@ def numbers(m) -> dict:
 
 
 # --- How it turns in space
+# of a lean: whether it stays near that of a steady precession
+STAYS = {True: "stable", False: "unstable", None: "of undecided stability"}
 MODES = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": HEADS["separatrix"],
-         "steady": HEADS["equilibrium"], "heavy top": "HEAVY TOP"}
+         "steady": HEADS["equilibrium"], "heavy top": "HEAVY TOP",
+         "top in a field": "TOP IN A FIELD"}
 
 
 def attitude_objects(rows) -> dict:
@@ -288,7 +292,7 @@ def attitude_text(case, result, units: Units) -> str:
         low, high = (units.angle(angle) for angle in result.lean)
         lines.append(row("lean", f"{low} to {high} from the upward vertical" if low != high else
                          f"{low} from the upward vertical, always"))
-    lines += top_lines(result.top, units)
+    lines += [row(*fact) for fact in top_rows(result.top, units)]
     if result.turn_angle is not None:
         about = f" about {_vector(case, result.turn_axis)}" if result.turn_axis else ""
         lines.append(row("turn after one period", units.angle(result.turn_angle) + about))
@@ -303,27 +307,50 @@ def top_key(top: TopRates | None) -> dict:
     """What is known of the spin of a top and its lean, rad/s and rad, under `top`; nothing of other bodies.
     """
     return {} if top is None else {"top": {
-        "spin": top.spin, "lean": top.lean, "steady_precession": list(top.steady), "least_spins": top.spins,
+        "spin": top.spin, "lean": top.lean, "steady_precession": list(top.steady),
+        "steady_stable": list(top.stable), "steady_nutation": list(top.nutation), "least_spins": top.spins,
         "unstable_upright": top.upright, "unstable_hanging": top.hanging}}
 
 
-def top_lines(top: TopRates | None, units: Units) -> list[str]:
-    """Its rates of steady precession, and from which spin on it stays upright."""
+def top_rows(top: TopRates | None, units: Units) -> list[tuple[str, str]]:
+    """(name, words) of its steady precessions, and from which spin on it stays upright."""
     if top is None:
         return []
     lean, spin = units.angle(top.lean), units.rate(top.spin)
-    rates = " or ".join(units.rate(rate, SHORT) for rate in top.steady)
-    lines = []
-    if rates:
-        lines.append(row("steady precession", f"{rates} at a lean of {lean} and a spin of {spin}"))
+    rows = []
+    if top.steady:
+        rows.append(("steady precession", f"{_precessions(top, units)} at a lean of {lean} and a spin of "
+                                          f"{spin}"))
+        if nutations := _nutations(top, units):
+            rows.append(("small nutation", f"period {nutations}"))
     elif top.spins is not None:
-        lines.append(row("steady precession", f"at a lean of {lean} {_outside(top.spins, units)}"))
+        rows.append(("steady precession", f"at a lean of {lean} {_outside(top.spins, units)}"))
     for name, unstable in (("upright", top.upright), ("hanging", top.hanging)):
         if unstable is not None:
-            lines.append(row(name, f"stable {_outside(unstable, units)}"))
+            rows.append((name, f"stable {_outside(unstable, units)}"))
         elif name == "upright":
-            lines.append(row(name, "stable at every spin"))
-    return lines
+            rows.append((name, "stable at every spin"))
+    return rows
+
+
+def _named(top: TopRates) -> tuple[str, ...]:
+    """What each rate is called, where there are two."""
+    return (f"{SLOW} ", f"{FAST} ") if len(top.steady) == 2 else ("",)
+
+
+def _precessions(top: TopRates, units: Units) -> str:
+    """The rates, the slow one first, with their stability."""
+    words = [STAYS[stable] for stable in top.stable]
+    rates = [f"{name}{units.rate(rate, SHORT)}" for name, rate in zip(_named(top), top.steady)]
+    if len(set(words)) == 1:
+        return f"{' or '.join(rates)}, {'both ' * (len(words) == 2)}{words[0]},"
+    return " or ".join(f"{rate} ({word})" for rate, word in zip(rates, words))
+
+
+def _nutations(top: TopRates, units: Units) -> str:
+    """The periods of small nutations about the stable ones; nothing where there are none."""
+    return ", ".join(f"{units.time(2 * math.pi / rate)}{name and f' about the {name.strip()} one'}"
+                     for name, rate in zip(_named(top), top.nutation) if rate)
 
 
 def _outside(ends: tuple[float, float], units: Units) -> str:

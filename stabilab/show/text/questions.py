@@ -25,6 +25,8 @@ from .motion import (
     numbers,
     row,
     tilt_lines,
+    top_key,
+    top_rows,
     why,
 )
 
@@ -183,6 +185,7 @@ def fate(case: Case, motion: Motion, told: Told, units: Units, all_digits: bool,
     rows = [row(name, phrase) for name, phrase in margins if phrase]
     bounds = bound_lines(case, replace(motion, extremes=None), units)
     return "\n".join([f"{case.name}: {verdict(case, motion, units)}", *rows, *bounds,
+                      *(row(*fact) for fact in top_rows(motion.top, units)),
                       *tilt_lines(case, motion, units, proofs),
                       *why(case, motion, units, proofs), *frame.note(case),
                       *([_said(told, units, " of the margin, energy")] * say)])
@@ -280,7 +283,8 @@ def fate_dict(case: Case, motion: Motion, printed: Told) -> dict:
     margin = motion.margin_energy if printed.values is None else printed.values
     return _object("fate", case, motion, printed, {
         **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
-        "margin": margin, "tilt": tilt_dict(motion.tilt), **followed(motion)})
+        "margin": margin, "tilt": tilt_dict(motion.tilt), **followed(motion),
+        **top_key(motion.top)})
 
 
 def period_dict(case: Case, motion: Motion, printed: Told) -> dict:

@@ -132,7 +132,7 @@ def test_on_both_sides_of_the_separatrix_it_ends_as_a_run_in_space_does():
 
 @pytest.mark.parametrize(("times", "attract"), [(0.999, 2), (1.001, 1)])
 def test_the_threshold_has_both_sides(times, attract):
-    """At the spin of the start, h = (2000 - 1000) 1.5; at its |H|, |H|/2: Likins 1967, Landon and Stewart 1964."""
+    """At the spin of the start, h = (2000 - 1000) 1.5; at its |H|, |H|/2: by hand, h D1 = (D1 - D) |H|."""
     found = flat_spin(made(D, K, C, (0, 0, 30), (0, 0.01, 1.5))).threshold
     assert found.at_rate == pytest.approx(1500, rel=1e-15)
     assert flat_spin(made(D, K, C, (0, 0, times * 1500), (0, 0, 1.5))).stable == attract

@@ -7,18 +7,18 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from ..numbers.balls import START_BITS, Unclear, settled
-from ..numbers.vectors import Float3, dot
-from ..orbit.result import Fate
-from ..physics.symmetric_top import TopRates
-from ..reasons import Reasoned, Sentence
-from ..representation import Answer
+from ...numbers.balls import START_BITS, Unclear, settled
+from ...numbers.vectors import Float3, dot
+from ...orbit.result import Fate
+from ...physics.symmetric_top import TopRates
+from ...reasons import Reasoned, Sentence
+from ...representation import Answer
 
 if TYPE_CHECKING:
     from flint import arb
 
 LONG, SHORT, SEPARATRIX, STEADY, TOP = "long-axis", "short-axis", "separatrix", "steady", "heavy top"
-
+FIELD_TOP = "top in a field"
 
 CLOSED_ERROR = 1e-15  # relative, of numbers from balls
 
@@ -27,15 +27,15 @@ CLOSED_ERROR = 1e-15  # relative, of numbers from balls
 class Attitude(Answer, Reasoned):
     """How one motion turns in space; vectors along the principal axes of the scene.
 
-    mode: "long-axis" or "short-axis" (which the angular momentum goes round, seen from the body; without
-    a torque), "heavy top", "separatrix", "steady", or None. rotation_period: of the rates, s; of a steady
-    rotation, of a turn. precession_period: mean, of that axis about the angular momentum, s. momentum: |H| at
-    the start, N m s; momentum_direction: unit vector along it at the start. cone: (least, greatest) angle
-    between the axis, in the direction that is nearer, and the angular momentum over all time, rad. Of a
-    heavy top precession_period is that of its axis about the vertical; lean: (least, greatest) angle between
-    the upward vertical and the direction from its fixed point to its centre of mass, rad; nutation_period:
-    from one least lean to the next, s; top: its rates of steady precession at the lean of the start, and the
-    spins at which it stays upright.
+    mode: "long-axis" or "short-axis" (which the angular momentum goes round, seen from the body; without a
+    torque), "heavy top", "top in a field", "separatrix", "steady", or None. rotation_period: of the rates, s;
+    of a steady rotation, of a turn. precession_period: mean, of that axis about the angular momentum, s.
+    momentum: |H| at the start, N m s; momentum_direction: unit vector along it at the start. cone: (least,
+    greatest) angle between the axis, in the direction that is nearer, and the angular momentum over all time,
+    rad. Of a top precession_period is that of its axis about the vertical; lean: (least, greatest) angle
+    between the upward vertical and the direction from its fixed point to its centre of mass, rad;
+    nutation_period: from one least lean to the next, s; top: its rates of steady precession at the lean of
+    the start, and the spins at which it stays upright.
     turn_angle (rad, 0 to pi), turn_axis: the rotation that takes the attitude at the start to that one
     rotation period later; the axis is the same in body and space. What the motion does not have is None,
     and `reason` says why. error: relative, of the periods and the turn.

@@ -13,12 +13,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..numbers.exact import sqrt_fraction
-from ..orbit.result import Motion
-from ..physics.scene import Scene
-from ..reasons import Sentence
-from .attitude_result import LONG, ROUND_AXIS, SHORT, Attitude, turned
-from .simulate import simulated, trajectory
+from ...numbers.exact import sqrt_fraction
+from ...orbit.result import Motion
+from ...physics.scene import Scene
+from ...reasons import Sentence
+from ..simulate import simulated, trajectory
+from .result import LONG, ROUND_AXIS, SHORT, Attitude, turned
 
 SUM_ERROR, RUN_ERROR = 1e-11, 1e-10  # relative: of a sum over a run, of a run's end
 OTHERS = 1.0 - np.eye(3)  # rows: the two axes beside each one
