@@ -24,7 +24,7 @@ from ..physics.scene import AnyScene
 from . import style
 from .assumed import Assumed
 from .turns.band import BAND, Grid, Long
-from .units import with_unit
+from .units import number, with_unit
 
 # --- The span of time
 NATURAL = 15.0  # units of the motion's own time, where the case gives no span
@@ -81,18 +81,19 @@ def spin_up_time(motion: Motion) -> float:
     return max(float(motion.evidence.get(name) or 0.0) for name in ("release_time", "t_certificate"))
 
 
-def spread(low: float, high: float, number: int) -> list[float]:
-    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end; towards two of
-    them so many on each side of zero."""
+def spread(low: float, high: float, number: int, unit: float = 1.0) -> list[float]:
+    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end, over four powers
+    of ten below and above `unit` or, where that is larger, the other end; towards two infinite ends so many
+    on each side of zero."""
     if math.isfinite(low) and math.isfinite(high):
         return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2
                 for n in range(number)]
     away = [10 ** (-4 + 8 * n / (number - 1)) for n in range(number)]
     if math.isfinite(low):
-        return [low + v * max(1.0, abs(low)) for v in away]
+        return [low + v * max(unit, abs(low)) for v in away]
     if math.isfinite(high):
-        return [high - v * max(1.0, abs(high)) for v in reversed(away)]
-    return [*(-v for v in reversed(away)), *away]
+        return [high - v * max(unit, abs(high)) for v in reversed(away)]
+    return [*(-v * unit for v in reversed(away)), *(v * unit for v in away)]
 
 
 # --- The box, and what is drawn in it
@@ -108,6 +109,8 @@ ARROWS, ARROW = (0.12, 0.45, 0.8), 0.11  # where: shares of the path; how long: 
 SHAPE = (48, 97)  # rows and columns of a branch
 # places on a piece of a curve of equilibria: to find what is in the box, and to draw it
 PLACES = (40, 90)
+# of half of the box: no two places that are drawn are farther apart than this, as far as halvings go
+CHORD, HALVINGS = 0.02, 16
 VIEWS = tuple((up, round_) for up in (22, 33) for round_ in (-55, -35, 35, 55))  # deg: elevation, azimuth
 BETTER = 1.25  # times as broad as from the first side: from there the path is seen
 RIM = 0.88  # of half of the box: up to here numbers stand at its edges, the corners are crowded
@@ -251,7 +254,7 @@ def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Ite
     (unit, per), shares = rate, [box.share(at) for at in path]
     named = tuple(with_unit(name, unit) for name in names)
     called, size = limit or ("", 0.0)
-    veils = [(f"{called}, {per * size:.4g} {unit}".rstrip(), called, part)
+    veils = [(f"{called}, {number(per * size)} {unit}".rstrip(), called, part)
              for part in (_sphere(size, box) if size > SMALL * max(box.half) else ())]
     veils += [(part.name, BAND, part) for part in (() if long is None else long.skins)]
     shown = [(style.SURFACES[n % len(style.SURFACES)],
@@ -510,20 +513,20 @@ def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainBranch], str]:
 def curves_of(result: Equilibria | None, box: Box, coarse: int = PLACES[0], fine: int = PLACES[1],
               known: Known | None = None) -> list[tuple[str, list[Point]]]:
     """(words, places) of the pieces of the curves of equilibria that come into the box, looked for at
-    `coarse` places of each piece and drawn through `fine`. known: the places of these curves that were formed
+    `coarse` places of each piece and drawn through `fine`, and more where it runs fast, as beside an
+    asymptote, where it would end before the box does. known: the places of these curves that were formed
     before, to which new ones are added: a box that grows keeps most of them."""
     out: list[tuple[str, list[Point]]] = []
     known = {} if known is None else known
-    for number, curve in enumerate(result.curves if result is not None else ()):
-        def place(t: float, number: int = number, curve: EquilibriumCurve = curve) -> Point | None:
-            if (number, t) not in known:
-                known[number, t] = _place(curve, t)
-            return known[number, t]
+    unit = 10.0 ** round(math.log10(box.farthest))  # that a box that grows has again
+    for n, curve in enumerate(result.curves if result is not None else ()):
+        def place(t: float, n: int = n, curve: EquilibriumCurve = curve) -> Point | None:
+            if (n, t) not in known:
+                known[n, t] = _place(curve, t)
+            return known[n, t]
         for segment in curve.segments:
-            for low, high in _inside(place, spread(*segment.t, coarse), box):
-                places = [place(low + (high - low) * n / fine) for n in range(fine + 1)]
-                out.append((style.EQUILIBRIA[style.kind_of(segment)],
-                            [at for at in places if at is not None]))
+            for low, high in _inside(place, spread(*segment.t, coarse, unit), box):
+                out.append((style.EQUILIBRIA[style.kind_of(segment)], _drawn(place, low, high, fine, box)))
     return [(text, places) for text, places in out if any(map(box.holds, places))]
 
 
@@ -534,6 +537,37 @@ def _place(curve: EquilibriumCurve, t: float) -> Point | None:
         return curve.point(t)[:3]
     except InputError:
         return None
+
+
+def _drawn(place: Callable[[float], Point | None], low: float, high: float, fine: int,
+           box: Box) -> list[Point]:
+    """Places of a curve for evenly spaced parameters, and between two of which one is in the box as many more
+    as part them by no more than CHORD."""
+    ts = [low + (high - low) * n / fine for n in range(fine + 1)]
+    out: list[Point] = []
+    last: tuple[float, Point] | None = None
+    for t in ts:
+        at = place(t)
+        if at is None:
+            continue
+        if last is not None:
+            out += _between(place, last, (t, at), box, HALVINGS)
+        out.append(at)
+        last = t, at
+    return out
+
+
+def _between(place: Callable[[float], Point | None], first: tuple[float, Point], last: tuple[float, Point],
+             box: Box, halvings: int) -> list[Point]:
+    """The places between two of a curve."""
+    apart = max(abs(a - b) / half for a, b, half in zip(first[1], last[1], box.half))
+    if not halvings or apart <= CHORD or not (box.holds(first[1]) or box.holds(last[1])):
+        return []
+    t = (first[0] + last[0]) / 2
+    if (at := place(t)) is None:
+        return []
+    return [*_between(place, first, (t, at), box, halvings - 1), at,
+            *_between(place, (t, at), last, box, halvings - 1)]
 
 
 def _inside(place: Callable[[float], Point | None], ts: list[float], box: Box) -> list[tuple[float, float]]:

@@ -266,7 +266,7 @@ def _measured_together(text: str) -> str:
     built = first
     for before, after in pairwise((first, *others)):
         held = (before == "=" or after.startswith("=") or (before[-1:].isdecimal() and after[:1].isalpha())
-                or (before, after.rstrip(",;:.)^23")) in (("N", "m"), ("m", "s")))
+                or (before, after.rstrip(",;:.)^23²³")) in (("N", "m"), ("m", "s"), ("kg", "m")))
         built += ("\u00a0" if held else " ") + after
     return built
 

@@ -8,9 +8,9 @@ import stabilab
 from stabilab.case.read import load_any
 from stabilab.errors import InputError
 from stabilab.show import picture_kinds, style
+from stabilab.show.plot import canvas, to_file
 from stabilab.show.plot import subject as subjects
-from stabilab.show.plot import to_file
-from stabilab.show.plot.subject import subject
+from stabilab.show.plot.subject import measures, subject
 from stabilab.show.report import one_case
 from tests.shared import CASES
 
@@ -70,8 +70,29 @@ def test_what_follows_a_burn_has_the_pictures_of_a_free_motion():
     """Their start is the state at the last closing: DOP853, 7 s."""
     item = subject(BURN)
     assert np.degrees(item.state) == pytest.approx(rates(np.array([7.0]))[0], rel=1e-8)
-    assert item.heading == "Two pulses, after the last closing"
+    assert item.heading == "Two pulses"
     assert {"time", "body", "sphere", "space", "equilibria", "attitude"} <= set(subjects.offered(item))
+
+
+def test_pictures_of_what_follows_a_burn_say_so_and_what_limits_the_burn():
+    """The propellant that leaves limits the rates at the last closing, and all that follows; a thruster's
+    tolerance stands there once, in the words of the burn."""
+    item = subject(CASES / "burns/stage.toml")
+    for answered in (True, False):
+        first, *others = (note.full for note in canvas.notes(item, measures(item), answered))
+        assert first == canvas.AFTER_BURN
+        assert any("12 kg of 4100 kg leave the body" in text for text in others)
+    loose = subject(BURN.replace("force = 2\n", 'force = "2 N +- 5 %"\n'))
+    assert sum("P" in note.full.split() for note in canvas.notes(loose, measures(loose))) == 1
+
+
+def test_limits_of_the_components_are_drawn_across_a_burn():
+    """Limits as the file has them, on both sides of zero."""
+    with style.drawing():
+        ax = stabilab.plot.time(BURN.replace('"15 deg/s"', '["15 deg/s", "12 deg/s", "90 deg/s"]'))
+        dashed = {round(float(line.get_ydata()[0]), 9) for line in ax.get_lines() if line.get_linestyle() == "--"
+                  and len(set(line.get_ydata())) == 1}
+        assert dashed >= {15.0, -15.0, 12.0, -12.0, 90.0, -90.0}
 
 
 @pytest.mark.parametrize("name", ["orbits/boom", "orbits/spinning"])

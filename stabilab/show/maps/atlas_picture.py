@@ -19,7 +19,7 @@ from ...packages import demand
 from .. import style
 from ..axes import axes_of
 from ..report import html
-from ..units import SHORT, Units
+from ..units import SHORT, Units, number
 from .atlas import (
     answer,
     does,
@@ -292,7 +292,7 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
                               label=f"time to {limit_words(atlas, units)} ({name})")
         if spread.vmax > LOG * spread.vmin > 0:
             bar.ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value:.4g}")
+        bar.ax.xaxis.set_major_formatter(lambda value, _: number(value))
         bar.ax.xaxis.set_minor_formatter(NullFormatter())
         resolved, low = _known(atlas), atlas.records["when_low"]
         printed = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~resolved & ~np.isinf(low))]

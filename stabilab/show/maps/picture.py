@@ -19,7 +19,7 @@ from .. import endings, style
 from ..plot import basins as basin_picture
 from ..plot.to_file import check_size
 from ..terminal import written
-from ..units import Units, units_of, with_unit
+from ..units import Units, number, units_of, with_unit
 from . import basins as basin_data
 from . import shades
 from .sweep import CELLS
@@ -160,7 +160,7 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         rows |= {} if panel else shades.mark_own(
             ax, [shades.own_value(plan, _dimension(data, plan, name)) for name in moving[:2]])
         ax.set_title(",\n".join(
-            f"{shades.spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip()
+            f"{shades.spoken_key(data, name)} = {number(float(data[name][n]))} {_unit(data, name)}".strip()
             for name, n in panel.items()))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)

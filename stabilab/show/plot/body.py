@@ -12,7 +12,8 @@ import numpy as np
 from ...physics.effects.base import effect_words
 from .. import style
 from ..axes import PLAIN
-from . import canvas
+from ..units import number
+from . import canvas, labels
 from . import subject as subjects
 from .subject import Subject, measures, subject
 
@@ -49,8 +50,7 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
     item = subject(case, state)
     subjects.check("body", item)
     if item.burning is not None:  # at its start, not after the last closing
-        craft = item.burning.craft
-        item = replace(item, state=craft.state, heading=craft.heading)
+        item = replace(item, state=item.burning.craft.state)
     from matplotlib.patheffects import withStroke
     scene = subjects.bodily(item)
     sides = box_sides(scene.body.inertia)
@@ -75,7 +75,11 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         if not bare:
             canvas.title(target, item.heading, most=canvas.TITLE_LINES if ax is None else None)
         if legend and not small:
-            style.legend(target.figure, rows, columns=1)
+            notes = [] if bare else canvas.notes_of_case(item, measures(item, units))
+            style.legend(target.figure, rows, columns=1,
+                         notes=canvas.fitted(notes, target.figure.bbox.width / target.figure.dpi))
+        if ax is None:
+            labels.apart(target)
     return target
 
 
@@ -111,11 +115,11 @@ def _craft(ax: Any, case: Any, sides: np.ndarray) -> list[tuple[str, dict[str, A
         look = _arrow(ax, index, 0.3 * principal(wheel.direction), "", colour, 2.0)
         ax.text(*index, f" {wheel.name}", color=colour, ha="left", va="top", **LETTERS)
         stuck = ", stuck" * wheel.stuck
-        rows.append((f"force of {wheel.name} on the body, {float(wheel.force):.4g} N{stuck}", look))
+        rows.append((f"force of {wheel.name} on the body, {number(float(wheel.force))} N{stuck}", look))
     for wheel in case.wheels if len(case.wheels) > 1 else ():
         turning = np.sign(float(wheel.momentum) or 1.0) * principal(wheel.axis)
         look = _arrow(ax, (0, 0, 0), 0.4 * turning, wheel.name, style.GREY, 1.6)
-        rows.append((f"momentum of {wheel.name}, {float(wheel.momentum):.4g} N m s", look))
+        rows.append((f"momentum of {wheel.name}, {number(float(wheel.momentum))} N m s", look))
     if case.frame is not None and not case.frame.as_given:
         for letter, axis in zip("xyz", turn.T):
             ax.plot(*np.array([-0.72 * axis, 0.72 * axis]).T, color=style.GREY, linewidth=1.0,
@@ -174,7 +178,7 @@ def _along(vector: Sequence[float], length: float):
 
 
 def _vector(values: Float3 | np.ndarray) -> str:
-    return f"({', '.join(f'{float(v):.4g}' for v in values)})".replace("-", "−")
+    return f"({', '.join(number(float(v)) for v in values)})".replace("-", "−")
 
 
 def _ring(ax: Axes3D, axis: np.ndarray, radius: float):

@@ -26,6 +26,7 @@ SQUARE = (7.0, 6.4)
 TITLE_LINES = 2  # of a picture of its own; more stand below it
 NOTE_LINES, SMALL_LINES = 3, (1, 2)  # of notes below a picture; below a small one, in few words if need be
 COMMAND = "stabilab fate"  # which prints all notes
+AFTER_BURN = "the free motion after the last closing"
 BELOW = 0.14  # inches between axes in space and their legend, in a figure with room for it
 
 
@@ -114,9 +115,24 @@ def notes(item: Subject, scale: Measures, answered: bool = True) -> list[Note]:
         return []
     units = replace(scale.system or units_of(item.case), axes=axes_of(item.case))
     caveats = item.case.caveats if item.state is None else item.motion.caveats
+    first = []
+    if item.burning is not None:  # of the motion that follows it, whose start is as sure as the burn
+        first = [Note(AFTER_BURN, AFTER_BURN)]
+        own = without(caveats, Kind.TOLERANCE, Kind.MISALIGNMENT, Kind.THRUSTERS,
+                      *(caveat.kind for caveat in item.caveats))
+        caveats = (*item.caveats, *own)
     if answered:
-        return limiting.notes(caveats, answer(item, scale), units)
-    return limiting.notes(without(caveats, Kind.LIMIT, Kind.TILT, Kind.UNSTABLE, Kind.THRUSTERS), "", units)
+        return first + limiting.notes(caveats, answer(item, scale), units)
+    return first + limiting.notes(without(caveats, Kind.LIMIT, Kind.TILT, Kind.UNSTABLE, Kind.THRUSTERS), "",
+                                  units)
+
+
+def notes_of_case(item: Subject, scale: Measures) -> list[Note]:
+    """What limits every answer about the case, for a picture of its body."""
+    if item.case is None:
+        return []
+    return limiting.notes(item.caveats, "", replace(scale.system or units_of(item.case),
+                                                    axes=axes_of(item.case)))
 
 
 def title(ax: Any, heading: str, *lines: str, most: int | None = None) -> list[str]:
@@ -124,14 +140,31 @@ def title(ax: Any, heading: str, *lines: str, most: int | None = None) -> list[s
     (omega becomes ω); nothing for what is empty. most: lines at most; None: as many as these take. Returns
     the lines that there is no room for: the first of the program has one line, in smaller letters where it is
     long (in a small figure the whole title, where it needs that), and the heading is cut."""
-    # beside others it has its own share alone
-    width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0
+    # beside others it has its own share alone, but the only one of a figure
+    width = ax.get_position().width if most is None and len(ax.figure.axes) > 1 else 1.0
     inches = ax.figure.get_figwidth() * width
     said = [written(line) for line in lines if line]
     if most is None:
         shown = [style.clauses(line, inches) for line in filter(None, (heading, *said))]
         ax.set_title("\n".join(map(style.literal, shown)), wrap=True)
         return []
+    text, size, rest = _fitted_title(heading, said, inches, most)
+    drawn = ax.set_title(text, fontsize=size)
+    if width == 1.0:  # over the figure, as axes with words on their left are not in its middle
+        from matplotlib.transforms import blended_transform_factory
+        drawn.set_transform(blended_transform_factory(ax.figure.transFigure, drawn.get_transform()))
+    return rest
+
+
+def over(figure: Any, heading: str, line: str) -> None:
+    """The title of a figure of several axes, in two lines as of `title`."""
+    said = [written(line)] if line else []
+    text, size, _ = _fitted_title(heading, said, figure.get_figwidth(), TITLE_LINES)
+    figure.suptitle(text, fontsize=size)
+
+
+def _fitted_title(heading: str, said: list[str], inches: float, most: int) -> tuple[str, float, list[str]]:
+    """(the text of a title of so many lines, the size of its letters, lines without room in it)."""
     size = style.fitting(said[0] if said else "", inches)
     first = style.clauses(said[0], inches, size).split("\n") if said else []
     if len(first) > 1 and (style.share() == 1 or len(first) > most):
@@ -140,8 +173,4 @@ def title(ax: Any, heading: str, *lines: str, most: int | None = None) -> list[s
     own = style.clauses(heading, inches, size).split("\n") if heading else []
     if len(own) > room > 0:
         own[room - 1:] = [f"{own[room - 1].rstrip(',;:')} ..."]
-    drawn = ax.set_title("\n".join(map(style.literal, (*own[:room], *first))), fontsize=size)
-    if width == 1.0:  # over the figure, as axes with words on their left are not in its middle
-        from matplotlib.transforms import blended_transform_factory
-        drawn.set_transform(blended_transform_factory(ax.figure.transFigure, drawn.get_transform()))
-    return said[1:]
+    return "\n".join(map(style.literal, (*own[:room], *first))), size, said[1:]

@@ -14,9 +14,10 @@ from ...errors import InputError
 from .. import style
 from ..space import Box, Space, curves_of, look, marks_of, spread
 from ..space import space as drawn_in
+from ..units import number as in_digits
 from . import canvas, in_space
 from . import subject as subjects
-from .in_space import EQUILIBRIUM_LOOKS, disc, holds, inside, marker, plane_of
+from .in_space import EQUILIBRIUM_LOOKS, disc, holds, marker, plane_of
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
             rows["start of the motion" if flat is None
                  else "start of the motion, seen along the axis"] = style.MARKER["start"]
         constant = ("" if flat is None else f"all have {scale.plain(flat)} = "
-                 f"{drawn.curves[0][1][0][flat] * per + 0.0:.4g} {scale.rate[0]}".rstrip())
+                 f"{in_digits(drawn.curves[0][1][0][flat] * per)} {scale.rate[0]}".rstrip())
         stopped = once_stopped(result)
         text = "; ".join(filter(None, (constant, stopped and stopped.text(letters=True))))
         return canvas.explained(target, list(rows.items()) if legend else [], ax is None, item.heading, text,
@@ -89,9 +90,12 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
 def _box(result: Equilibria, folds: np.ndarray, item: Subject, number: int) -> Box:
     """What to show: all points and folds, the start, and of curves as much again."""
     marks = [at for _, at in marks_of(item.state, None, result)] + folds.tolist()
-    nearby = [min(size for t in spread(*segment.t, number)
-                if math.isfinite(size := math.hypot(*curve.point(t)[:3])))
-            for curve in result.curves if not curve.plane for segment in curve.segments]
+    bent = [curve for curve in result.curves if not curve.plane]
+    ends = [abs(t) for curve in bent for segment in curve.segments for t in segment.t if math.isfinite(t)]
+    unit = max((*(abs(v) for at in marks for v in at), *ends), default=0.0) or 1.0
+    nearby = [min(size for t in spread(*segment.t, number, unit)
+                  if math.isfinite(size := math.hypot(*curve.point(t)[:3])))
+              for curve in bent for segment in curve.segments]
     size = max([*(abs(v) for at in marks for v in at), *nearby], default=0.0) or 1.0
     return Box((0.0,) * 3, (size * (BEYOND if result.curves else 1.1),) * 3)
 
@@ -110,7 +114,7 @@ def _in_plane(ax: Axes, drawn: Space, folds: np.ndarray, flat: int) -> None:
     first, second = (n for n in range(3) if n != flat)
     per, box = drawn.rate, drawn.box.scaled(drawn.rate)
     for text, places in drawn.curves:
-        ax.plot(*inside(box, per * np.array(places))[:, [first, second]].T, **look(text))
+        ax.plot(*(per * np.array(places))[:, [first, second]].T, **look(text))
     for text, at in drawn.marks:
         ax.plot(per * at[first], per * at[second], zorder=5, **marker(text))
     ax.plot(folds[:, first] * per, folds[:, second] * per, zorder=5, **FOLD)

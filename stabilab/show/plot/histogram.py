@@ -59,6 +59,8 @@ def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None =
     unit, per = scale.time(float(edges[-1])) if timed else scale.rate
     with canvas.on(ax, size) as target:
         target.bar(per * edges[:-1], counts, width=per * (edges[1:] - edges[:-1]), align="edge", **BAR)
+        ends = [f"{quantile.percent} %" for quantile in spread.quantiles
+                if quantile.percent != 50 and quantile.high < float("inf")]
         for quantile in spread.quantiles:
             look = MEDIAN if quantile.percent == 50 else ENDS
             if quantile.high < float("inf"):
@@ -70,7 +72,8 @@ def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None =
         name = "time to the limit" if timed else "largest rate |ω|"
         target.set_xlabel(f"{name} ({unit})" if unit else name)
         target.set_ylabel("draws")
-        rows = [("median", MEDIAN), ("5 % and 95 %", ENDS), ("95 % bounds of each", BOUNDS)]
+        rows = [("median", MEDIAN), (" and ".join(ends), ENDS), ("95 % bounds of each", BOUNDS)]
+        rows = [(name, look) for name, look in rows if name]
         other = "never reach it, or are not known" if timed else "grow without end, or are not known"
         text = (f"{drawn(result.number)} of the uncertain numbers, seed {result.seed}; samples, no proof"
                 + f"; {beyond:,} {other} ({number(100 * beyond / result.number, SHORT)} %)" * bool(beyond))

@@ -37,6 +37,7 @@ from ..space import (
 )
 from ..space import space as drawn_in
 from ..turns.band import Long, often
+from ..units import number as shortened
 from . import canvas
 from . import subject as subjects
 from .long import Clock, long
@@ -220,7 +221,9 @@ def depth(ax: Axes3D, box: Box, path: np.ndarray, points: Iterable[Any],
 
 
 # --- What a plot of a surface with motions on it is made of, and which of its lines lie in front
-STEEP = 33  # degrees of elevation: from higher up the axes' labels run into each other
+# degrees: from higher up the axes' labels run into each other; from as low as the floor, or along an axis,
+# those of one stand on another's
+STEEP, LOW, OBLIQUE = 33, 8, 15
 Look = dict[str, Any]
 
 
@@ -258,9 +261,11 @@ def sight(view: tuple[float, float]) -> np.ndarray:
 def facing(direction: np.ndarray, aside: float = 25.0) -> tuple[float, float]:
     """A view in which a direction points to the eye, somewhat aside."""
     size = float(np.linalg.norm(direction)) or 1.0
-    up = float(np.degrees(np.arcsin(np.clip(direction[2] / size, -1, 1))))
-    return float(np.clip(up + 12, -STEEP,
-                         STEEP)), float(np.degrees(np.arctan2(direction[1], direction[0])) + aside)
+    up = float(np.degrees(np.arcsin(np.clip(direction[2] / size, -1, 1)))) + 12
+    round_ = float(np.degrees(np.arctan2(direction[1], direction[0]))) + aside
+    off = (round_ + 45) % 90 - 45
+    return (math.copysign(min(max(abs(up), LOW), STEEP), up),
+            round_ + math.copysign(max(OBLIQUE - abs(off), 0.0), off))
 
 
 def grid_triangles(points: np.ndarray) -> np.ndarray:
@@ -434,7 +439,7 @@ def _path(item: Subject, clock: Clock) -> tuple[list[Any], str, Long | None]:
     part = ""
     if (end := min(map(_end_of_the_first_turns, omega.T))) < len(omega):
         unit, per = measures(item).time(abs(high - low))
-        shown, full = (f"{abs(time - low) * per:.3g} {unit}" for time in (t[end], high))
+        shown, full = (f"{shortened(abs(time - low) * per, 3)} {unit}" for time in (t[end], high))
         part = f"the first {shown} of {full} are drawn"
         _, omega = path(item, low, t[end])
     spans = np.ptp(omega, axis=0)

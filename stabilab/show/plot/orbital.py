@@ -12,7 +12,7 @@ from ...errors import InputError
 from .. import limiting, style
 from ..text.motion import grows_in, orbit_headline
 from ..units import SHORT, Units, number, units_of
-from . import canvas
+from . import canvas, labels
 from .body import CORNERS, FACES, box_sides
 from .subject import Subject, measures
 
@@ -56,10 +56,10 @@ def attitudes(item: Subject, ax: Axes | None = None, units: str | None = None,
     with matplotlib.rc_context(style.RC | style.letters(size)):
         figure = plt.figure(figsize=size or (max(across, 2) * PANEL[0], down * PANEL[1] + 0.9),
                             layout="constrained")
+        figure.get_layout_engine().set(h_pad=canvas.BELOW)
         panels = [_panel(figure.add_subplot(down, across, n, projection="3d"), item, result, words, attitude,
                          system) for n, (words, attitude) in enumerate(shown, 1)]
-        figure.suptitle(f"{style.literal(item.heading)}\n{_title(result)}", fontsize=10.5 * style.share(),
-                        wrap=True)
+        canvas.over(figure, item.heading, _title(result))
         if legend:
             verdicts = {attitude.verdict for _, attitude in shown}
             rows = [(words, look) for words, look in LOOKS.items() if words.split()[0] in verdicts]
@@ -67,6 +67,7 @@ def attitudes(item: Subject, ax: Axes | None = None, units: str | None = None,
                                            for n, colour in enumerate(style.AXES, 1))],
                          notes=canvas.fitted(limiting.notes(result.caveats, _title(result), system),
                                              figure.get_figwidth()))
+        labels.apart(*panels)
     return panels[0]
 
 

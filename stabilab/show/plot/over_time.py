@@ -196,7 +196,7 @@ def _periods(ax, item, low, high, per_time, scale):
     if not period or high - low < period:
         return []
     unit, per = scale.time(period)
-    text = f"period {period * per:.5g} {unit}"
+    text = f"period {number(period * per, 5)} {unit}"
     if not _marked(item, low, high):
         return [(text, {"linestyle": "none"})]
     for end in np.arange(math.ceil(low / period), math.floor(high / period) + 1) * period:
@@ -226,7 +226,7 @@ def limit_marks(ax, limit, when, t, omega, time_unit, rate_unit, look=None):
     for largest, look in zip(limits, COMPONENTS):
         for sign in (1,) if alone else (1, -1):
             ax.axhline(sign * largest * per_rate, **drawn | ({} if same else {"color": look["color"]}))
-    printed = f"limit of {'|ω|' if alone else 'each'}, {limits[0] * per_rate:.4g} {name}"
+    printed = f"limit of {'|ω|' if alone else 'each'}, {number(limits[0] * per_rate)} {name}"
     rows = [(printed if same else "limits", drawn)]
     low, high = when or (math.nan, math.nan)
     if not (t[0] <= high < math.inf and low <= t[-1]):
@@ -238,7 +238,7 @@ def limit_marks(ax, limit, when, t, omega, time_unit, rate_unit, look=None):
     values = np.array([np.interp(middle, t, column) for column in omega.T])
     at = np.linalg.norm(values) if alone else values[np.argmax(np.abs(values) / np.array(limits))]
     ax.plot([middle * per_time], [at * per_rate], zorder=5, **REACHED)
-    return [*rows, (f"reached after {middle * per_time:.4g} {second}", REACHED)]
+    return [*rows, (f"reached after {number(middle * per_time)} {second}", REACHED)]
 
 
 def _assumed(ax: Axes, limit: Assumed, t: np.ndarray, omega: np.ndarray, time_unit: tuple[str, float],
@@ -246,7 +246,7 @@ def _assumed(ax: Axes, limit: Assumed, t: np.ndarray, omega: np.ndarray, time_un
     """The limit of a case that states none: as `limit_marks` where the motion comes so far; else said alone,
     as room for its line would be taken from the curves."""
     rate, per_rate = scale.rate
-    text = f"assumed limit, {limit.rate * per_rate:.4g} {rate}".rstrip()
+    text = f"assumed limit, {number(limit.rate * per_rate)} {rate}".rstrip()
     if np.linalg.norm(omega, axis=1).max() < limit.rate:
         return [(f"{text}: not reached", {"linestyle": "none"})]
     when = None if limit.time is None else (limit.time, limit.time)
@@ -286,7 +286,7 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
         became = "; ".join(clauses).rsplit(" (", 1)[0]  # without how well that is known
         canvas.title(ax, "", f"{row_name(row)}: {became}")
         printed |= {text.partition(" after ")[0]: look for text, look in drawn}
-    figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)
+    canvas.over(figure, case.heading, "")
     canvas.legend(axes[-1, 0], list(printed.items()), True)
     return figure
 

@@ -258,8 +258,8 @@ def _rings(item: Subject, ax: Any, units: str | None, size: tuple[float, float] 
                 *([("separatrix", RIM)] if result.rim is not None or result.inner else []),
                 ("centre (stable)", MIDDLE)]
         return canvas.explained(target, rows if legend else [], ax is None, item.heading,
-                                f"periodic, {_time(float(item.motion.period), scale)}; all that stay bounded "
-                                f"here are", notes=canvas.notes(item, scale, answered=False))
+                                f"periodic, {_time(float(item.motion.period), scale)}, as every bounded "
+                                f"motion here", notes=canvas.notes(item, scale, answered=False))
 
 
 def _coordinates(item: Subject, result: rings.Island,
@@ -383,7 +383,7 @@ def _passed(item: Subject, times: np.ndarray, places: np.ndarray, until: float, 
     if len(places) > 1 and one_place(places):
         return [
             f"all {len(places)} passages at one place: periodic, {_time(float(times[1] - times[0]), scale)}",
-            turn or "a dot for each motion: all that stay bounded here are periodic" * _all_repeat(item)]
+            turn or "a dot for each motion: every bounded one here is periodic" * _all_repeat(item)]
     passed = f"{len(places)} passages in {_time(float(times[-1]), scale)}"
     if math.isfinite(until):
         passed += f", until spin-up about {item.axes.short(item.motion.axis)} is certain"
@@ -398,6 +398,8 @@ def _time(value: float, scale: Measures) -> str:
 POINTS = 1200
 ROOM = 0.6     # of the canonical angle, beyond a barrier that would stand outside
 CLOSE = 1e-6   # relative: by this a barrier is known by its margin
+# of the picture: words at a barrier farther right stand left of it; those of a shorter arrow above it
+BESIDE, SHORTEST = 0.65, 0.12
 ENERGY = style.MEANING["this motion"] | {"linestyle": "--", "linewidth": 1.2}
 
 
@@ -437,7 +439,8 @@ def potential(case: Scene, state: Sequence[float] | None = None, ax: Axes | None
                 target.plot(across * shown, up * plane.height(shown), zorder=5, **style.MARKER[kind])
                 rows.append((name, style.MARKER[kind]))
         if barrier is not None:
-            _margin(target, margin, across * barrier, up * energy, " J" * bool(scale.size))
+            _margin(target, margin, across * barrier, up * energy, " J" * bool(scale.size),
+                    (barrier - low) / (high - low) > BESIDE)
         target.set_xlim(*sorted((across * low, across * high)))
         i = plane.reduction.axis + 1
         target.set_xlabel(with_unit(rf"turn $\alpha_{i}$ about {item.axes.short(i)} from the start",
@@ -456,12 +459,17 @@ def _barrier(plane: PhasePlane, margin: float | None, up: float, span: tuple[flo
     return min((y for y in above if abs(above[y] - margin) <= CLOSE * abs(margin)), key=abs, default=None)
 
 
-def _margin(ax: Axes, margin: float, location: float, energy: float, unit: str) -> None:
-    """An arrow from the energy to the barrier."""
+def _margin(ax: Axes, margin: float, location: float, energy: float, unit: str, leftward: bool) -> None:
+    """An arrow from the energy to the barrier; its words beside it, or above both where it is short."""
     ax.annotate("", (location, energy + margin), (location, energy),
                 arrowprops={"arrowstyle": "<->", "color": style.BLACK, "linewidth": 1.4})
     size = number(abs(margin), SHORT) + unit
+    low, high = ax.get_ylim()
+    short = abs(margin) < SHORTEST * (high - low)
+    if short:
+        ax.margins(y=SHORTEST)
     ax.annotate(f"margin in energy {size}" if margin > 0 else f"{size} above the barrier",
-                (location, energy + margin / 2), (6, 0), textcoords="offset points", va="center",
-                color=style.BLACK,
+                (location, energy + max(margin, 0.0) if short else energy + margin / 2),
+                (-6 if leftward else 6, 12 * short), textcoords="offset points",
+                va="bottom" if short else "center", ha="right" if leftward else "left", color=style.BLACK,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.8})

@@ -173,8 +173,7 @@ def _burned(burning: Burning, ends: tuple[float, ...] | None) -> Subject:
     """What follows a burn."""
     closed, craft = burn(burning).closed, burning.craft
     after = replace(craft, state=closed.rates, decimals=None, span=None)
-    heading = f"{craft.heading}, after the last closing"
-    return Subject(craft.physical, closed.rates, {}, None, heading, after, asked=ends, burning=burning)
+    return Subject(craft.physical, closed.rates, {}, None, craft.heading, after, asked=ends, burning=burning)
 
 
 def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:

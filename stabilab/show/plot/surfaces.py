@@ -17,7 +17,7 @@ from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from ...physics.states import body_momentum
 from .. import style
 from ..space import Box, spread
-from ..units import with_unit
+from ..units import number, with_unit
 from . import canvas, in_space
 from . import subject as subjects
 from .in_space import (
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 GRID = (97, 161)  # of the surface: rates, places
 FARTHER = {"linewidth": 0.8}
 LEVELS, ROUNDS = 20, 8  # other energies; how often curves are followed round, at most
+LEAST_RISE = 1 / 40  # of the energies in the picture, round the circle: a lesser one would need as many lines
 AROUND = 2.2  # a small motion is shown in so many times its own size
 ASIDE = 0.6  # of the way over this motion and all equilibria: how far a hyperbola or parabola is shown beyond
 
@@ -82,13 +83,14 @@ def cylinder(item: Subject, units: str | None) -> SurfaceLines:
 def _curves(plane: PhasePlane, low: float, high: float, top: float):
     """As of `curves_of`. Round a whole circle a torque lifts the energy by the same each time: the others are
     so many energies that each line goes on beyond the place where the plane is cut, and separatrices and this
-    motion are followed round until they leave the picture."""
+    motion are followed round until they leave the picture. A torque that lifts it by too little for that is
+    not seen in them."""
     rise = float(plane.height(high)) - float(plane.height(low))
-    if high - low < plane.land.turn * (1 - 1e-9) or abs(rise) < SAME * top**2:
-        yield from curves_of(plane, low, high, top)
-        return
     y, W = np.linspace(low, high, 700), np.linspace(-top, top, 500)
     energy = W[:, None]**2 / 2 + plane.height(y)[None, :]
+    if high - low < plane.land.turn * (1 - 1e-9) or abs(rise) < LEAST_RISE * float(np.ptp(energy)):
+        yield from curves_of(plane, low, high, top)
+        return
     step = abs(rise) / max(1, round(LEVELS * abs(rise) / float(np.ptp(energy))))
     values = np.arange(float(energy.min()) + step / 2, float(energy.max()), step)
     for line in levels(y, W, energy, values):
@@ -173,7 +175,7 @@ def momentum_sphere(item: Subject) -> SurfaceLines:
     view = facing(route.mean(axis=0) if np.linalg.norm(route.mean(axis=0)) > 0.05 * size else route[0])
     result = SurfaceLines(grid_triangles(ball[::6, ::8]), Box((0.0,) * 3, (1.08 * size,) * 3), view,
                          tuple(rf"$H_{n}$ (kg m$^2$/s)" for n in (1, 2, 3)),
-                         f"sphere of the angular momentum, |H| = {size:.5g} kg m²/s")
+                         f"sphere of the angular momentum, |H| = {number(size, 5)} kg m²/s")
     flat = float(np.ptp(height)) <= SAME * float(np.abs(height).max())
     saddles = [] if flat else _saddles(height, [float(energy(H)) for kind, H in rest if kind == "unstable"])
     for values, look in ((_others(height, saddles), style.MEANING["level"]),
@@ -235,7 +237,7 @@ def losing_sphere(item: Subject) -> SurfaceLines:
     result = SurfaceLines(grid_triangles(ball[::6, ::8]), Box((0.0,) * 3, (1.08 * size,) * 3), view,
                           tuple(rf"$H_{n}$ (kg m$^2$/s)" for n in (1, 2, 3)),
                           "levels of the energy on the sphere of the angular momentum, "
-                          f"|H| = {size:.5g} kg m²/s")
+                          f"|H| = {number(size, 5)} kg m²/s")
     flat = sphere.rotations[0].everywhere
     passes = [] if flat else sorted({float(r.energy) for r in sphere.rotations if r.nature == SADDLE})
     for values, look in (([] if flat else _others(height, passes), style.MEANING["level"]),
@@ -313,12 +315,12 @@ def _rest(item, D, wheel, size):
             continue
         for segment in curve.segments:
             result += [(style.kind_of(segment), np.array(curve.point(t), float) * D + wheel)
-                      for t in _roots(excess(curve), *segment.t)]
+                      for t in _roots(excess(curve), *segment.t, size / float(D.min()))]
     return result, circles
 
 
-def _roots(function, low, high):
-    t = spread(low, high, 4001)
+def _roots(function, low, high, unit):
+    t = spread(low, high, 4001, unit)
     values = np.array([function(v) for v in t])
     with np.errstate(all="ignore"):
         change = np.nonzero(np.isfinite(values[:-1]) & np.isfinite(values[1:])

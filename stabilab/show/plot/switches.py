@@ -11,9 +11,9 @@ from ...answers.stuck.chain import Chain, links_of
 from ...errors import InputError
 from .. import limiting, style
 from ..text.stuck import burn_headline
-from ..units import SHORT, Units, number, units_of
+from ..units import SHORT, Units, number, units_of, with_unit
 from . import canvas
-from .over_time import LIMIT, components
+from .over_time import IN_FILE, LIMIT, components, file_axes, limit_marks
 from .path import path
 from .subject import Subject, measures, subject
 
@@ -35,8 +35,9 @@ def rates(item: Subject, ax: Axes | None = None, units: str | None = None,
     """Draw the rates of a burn (a Subject with `burning`) along the principal axes, and return the axes.
 
     Grey areas: while a thruster fires; black: the last closing; dotted: the largest |omega| for ever after
-    it. Where the case states a limit of |omega|, that too, and the latest closing time that keeps it. Raises
-    InputError as `stabilab.burn` does, and for a span that does not begin at 0.
+    it. Where the case states limits, these too, and of |omega| the latest closing time that keeps it; limits
+    about other axes of a file have the rates along those. Raises InputError as `stabilab.burn` does, and for
+    a span that does not begin at 0.
     """
     if item.burning is None:
         raise InputError("plot: expected a burn: a case whose thrusters fire on a schedule")
@@ -46,12 +47,20 @@ def rates(item: Subject, ax: Axes | None = None, units: str | None = None,
     scale, end = measures(item, units), _end(item, answer)
     parts = list(_followed(chain, answer, end))
     t, omega = (np.concatenate(columns) for columns in zip(*parts))
+    turned = file_axes(item)
+    omega = omega if turned is None else omega @ turned.T
     unit, per_time = scale.time(end)
     with canvas.on(ax, size) as target:
-        rows, _ = components(target, t, omega, scale.names, scale, (unit, per_time))
+        names = scale.names if turned is None else IN_FILE
+        rows, _ = components(target, t, omega, names, scale, (unit, per_time))
         rows += _switches(target, answer, end, per_time, unit)
         system = scale.system or units_of(item.burning.craft)
         rows += _levels(target, answer, end, system, per_time)
+        if limits is not None and answer.latest is None:
+            rows += limit_marks(target, limits.rates if limits.rate is None else limits.rate, None, t, omega,
+                                (unit, per_time), scale.rate)
+        if turned is not None:
+            target.set_ylabel(with_unit("rate, axes of the file", scale.rate[0]))
         line = burn_headline(answer, system)
         return canvas.explained(target, list(dict(rows).items()) if legend else [], ax is None,
                                 item.burning.craft.heading, line,

@@ -20,7 +20,7 @@ from .. import endings, style
 from ..assumed import Assumed
 from ..report import html
 from ..turns.moment import moment
-from ..units import SHORT, Unit, Units
+from ..units import SHORT, Unit, Units, number
 from . import canvas, in_space
 from . import subject as subjects
 from .body import CORNERS, FACES, box_sides
@@ -382,7 +382,7 @@ def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
                                 zorder=BEFORE + 1) for letter, colour, rows in result.arrows)
         fraction = None if result.share is None else result.share[frame]
         note = "; ".join(text for first, last, text in notes if first <= frame <= last)
-        now.set_text(f"{result.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}"
+        now.set_text(f"{number(result.t[frame] * per)} {unit}, |ω| = {number(rates[frame])} {scale.rate[0]}"
                      + ("" if fraction is None else f", {fraction:.0%} of {limit}".replace("%", " %"))
                      + f"\n{note}")
         now.set_color(style.BLACK if fraction is None or fraction < 1 else style.VERMILION)
