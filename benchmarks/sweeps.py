@@ -57,7 +57,7 @@ def measurements(small=False):
     if small:
         return found
     return [*found, *(partial(_asked, key) for key in ASKED), *(partial(_processes, n) for n in (1, 2, 4)),
-            *(partial(_into_a_file, side) for side in (1000, 2000))]
+            *(partial(_into_a_file, side) for side in (1000, 2000, 10_000))]
 
 
 def _minor(small) -> list[Row]:

@@ -24,7 +24,7 @@ from ..errors import InputError
 from ..numbers.polynomial import compass_search
 from ..numbers.vectors import Exact3
 from ..orbit.result import OUTCOMES, Motion, Needs
-from ..physics.coefficients import three_floats
+from ..physics.coefficients import effective, three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
 from ..reasons import Filling, Quantity, Rate, Reason, Sentence, Time
 from ..validation import checked_scene
@@ -33,7 +33,7 @@ from .kinds import kind_of
 from .limit import Limit, asked
 from .motion import motion
 from .passage import run_once, stays_below
-from .time_to import time_to
+from .time_to import of_one, time_to
 
 if TYPE_CHECKING:
     from ..case.read import Case
@@ -390,9 +390,10 @@ def _twice_the_largest(resolved: Motion) -> dict[str, Any]:
 
 
 def spread(scene: Scene, state: Sequence[float], cone: Cone, ask: dict[str, Any] | None,
-           exact: Exact3 | None = None) -> Spread:
+           exact: Exact3 | None = None, steps_first: bool = False) -> Spread:
     """The range over the torque itself and those at the edge of its cone, with forces of every size in
-    `Cone.corners`. ask: the limit, by its name as of `time_to`; None: the fates."""
+    `Cone.corners`. ask: the limit, by its name as of `time_to`; None: the fates.
+    steps_first: as of `time_to.of_one`."""
     places = [(None, cone.corners[0]), *((at, sizes) for sizes in cone.corners for at in cone.edge),
               *((None, sizes) for sizes in (*cone.corners[1:], *cone.between))]
     torques = [cone.at(*index) for index in places]
@@ -422,7 +423,10 @@ def spread(scene: Scene, state: Sequence[float], cone: Cone, ask: dict[str, Any]
             nearer, azimuth = min(nearest_round(signed, edge))
             location, more = (azimuth, sizes) if nearer < best else location, more + 2 * REFINED
         largest.append(cone.at(*location))
-    exactly = [time_to(tilted(scene, torque), state, **ask, exact=exact, work=WORK) for torque in largest]
+    start = tuple(map(Fraction, state)) if exact is None else exact
+    exactly = [of_one(effective(tilted(scene, torque)), state, start, limit, None, WORK,
+                      steps_first=steps_first)
+               for torque in largest]
     first, last = [(float(item.low), float(item.high)) for item in exactly]
     all_of_them = bool(np.isfinite(times).all())
     levels = {str(item.level) for item in exactly[:1 + all_of_them]}

@@ -331,10 +331,11 @@ def limit_of(case: Any) -> dict[str, Any] | None:
     return {"rate": limits.rate} if limits.rate is not None else {"component": limits.components(case.frame)}
 
 
-def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: bool) -> Tilt | Spread | None:
+def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: bool,
+            steps_first: bool = False) -> Tilt | Spread | None:
     """What the torques of the cone do: to a steady motion under one on an axis always, else where a tilt is
     asked for or stated, or a tolerance of a force; why not, where it is not looked at (a tolerance is then
-    left to the caveats of the case)."""
+    left to the caveats of the case). steps_first: as of `time_to.of_one`."""
     tilts, sized = angle is not None or bool(misaligned(case)), bool(loose_forces(case))
     loose = tilts or sized
     on_axis = (steady and case.variables != "scaled" and bool(torque_axis(case.scene))
@@ -352,7 +353,8 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
         return Spread(angle or 0.0, "the torque", 0, omitted=why) if tilts else None
     if on_axis and (tilts or ask is not None or not sized):
         return tilt(case.scene, case.state, angle, None, case, case.exact_state, ask)
-    return spread(case.scene, case.state, cone_of(case.scene, case, angle), ask, case.exact_state)
+    return spread(case.scene, case.state, cone_of(case.scene, case, angle), ask, case.exact_state,
+                  steps_first)
 
 
 def _too_fast(case: Any, ask: dict[str, Any] | None) -> bool:

@@ -240,6 +240,7 @@ def energy_of(own: AnyScene):
 
 # --- A spin-up proved along it
 TRIED, HOPELESS = 512, 16  # steps after which a way that would take so many times what is allowed is given up
+SETTLED = 8192  # steps from whose lengths it is judged how many more there are
 # times, over that of the certified run, at which the inequality is asked again
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)
 WIDENED = 1 + 2.0**-40
@@ -315,10 +316,27 @@ class _Way:
             if self.course.status == enclosure_kernel.GOING and slow:
                 self.t, self.steps, self.why = self.course.t, self.course.steps, TOO_LONG
                 return None
+            if self._slows_down(t, steps):
+                self.t, self.steps, self.why = self.course.t, self.course.steps, TOO_LONG
+                return None
         self.course.advance(t, steps - self.course.steps)
         now = self.course.now
         self.t, self.steps, self.why = now.t, now.steps, now.reason
         return (now.middle, _up(now.radius + np.abs(now.rest))) if now.status == "enclosed" else None
+
+    def _slows_down(self, t: float, steps: int) -> bool:
+        """Whether steps grow shorter, as in a spin-up they go on to do, and those left do not come to t even
+        at the length that they have: looked at whenever their number has doubled."""
+        course, until = self.course, SETTLED
+        while course.status == enclosure_kernel.GOING and 2 * until < steps:
+            before, taken = course.t, course.steps
+            course.advance(t, until - taken)
+            pace = (course.t - before) / max(course.steps - taken, 1)
+            if (taken >= SETTLED and pace * taken < before
+                    and course.status == enclosure_kernel.GOING and t - course.t > pace * (steps - until)):
+                return True
+            until *= 2
+        return False
 
 
 def _up(reach: np.ndarray) -> float:

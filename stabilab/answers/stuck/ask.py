@@ -41,7 +41,9 @@ from .fate import (
     Outcome,
     Scenario,
     delayed,
+    fate_under,
     first_time,
+    in_steps,
     intervals,
     outcome_of,
     scenario_of,
@@ -292,9 +294,8 @@ def _slower(scenario: Scenario, torque: Sequence[Fraction], visited: Outcome, ru
             duty: Duty) -> Helper:
     """run: the time of the limit by a plain run."""
     left = _left(torque, [arm for _, arm in chosen], duty)
-    fate = outcome_of(replace(scenario, limit=None), left).fate.word
     helper = Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), "slower",
-                    math.sqrt(float(dot(left, left))), fate, None)
+                    math.sqrt(float(dot(left, left))), fate_under(scenario, left).word, None)
     return _timed(scenario, helper, left, visited, (run, run))
 
 
@@ -409,7 +410,7 @@ def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene,
     loose = any(t.misalignment or t.force_tolerance for t in thrusters)
     firing = tuple(replace(t, stuck=t in thrusters) for t in scenario.case.thrusters)
     case = replace(scenario.case, thrusters=firing, scene=scene)
-    return (of_tilt(case, angle, limit_of(case), visited.fate in STEADY)
+    return (of_tilt(case, angle, limit_of(case), visited.fate in STEADY, in_steps(scene))
             if loose or angle is not None or scenario.limit is not None else None)
 
 

@@ -210,6 +210,17 @@ def outcome_of(scenario: Scenario, torque: Sequence[Fraction]) -> Outcome:
     return _off_axis(scenario, scene) if kind_of(scene) == "off axis" else _by_law(scenario, scene)
 
 
+def fate_under(scenario: Scenario, torque: Sequence[Fraction]) -> Fate:
+    """The fate of the scenario's motion under a torque, as `outcome_of` has it, without the proof of the
+    motion up to there, its time and its largest rate, which cost many times as much."""
+    scene = scenario.scene(torque)
+    if rests(scene.quadratic(), scenario.state):
+        return Fate.EQUILIBRIUM
+    if kind_of(scene) == "off axis":
+        return spin_up(scene, scenario.start).fate
+    return one(scene).motion(scene, scenario.start, None, scenario.state).fate
+
+
 def time_under(scenario: Scenario, torque: Sequence[Fraction],
                wheel: Sequence[Fraction]) -> tuple[float, float] | None:
     """The bracket of the time to the limit under a torque and a wheel momentum, s; None where it is never
@@ -267,7 +278,13 @@ def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any,
     end = None if t_max is None else Fraction(t_max)
     # work is no more than two
     return of_one(scene, scenario.start, scenario.state, scenario.exact_limit,  # type: ignore[misc]
-                  end, *work, spun=spun)
+                  end, *work, spun=spun, steps_first=in_steps(scene))
+
+
+def in_steps(scene: Scene) -> bool:
+    """Whether times are enclosed in compiled steps first: off the axes, where the proof of a fate takes these
+    too."""
+    return kind_of(scene) == "off axis"
 
 
 def _unsure(when: Found) -> Reason | None:

@@ -309,3 +309,20 @@ def test_doubles_leave_as_little_torque_in_the_box_of_shares_as_exact_numbers():
             assert size == pytest.approx(min(math.hypot(*map(float, ask._left(m, rows, duty)))
                                              for duty in shares), rel=1e-12)
     assert 0 < inside < 55
+
+
+def test_a_helper_has_the_fate_that_the_whole_answer_has_and_a_time_that_integers_enclose_too(case_file):
+    """Enclosures in compiled doubles and in integers share no arithmetic, so that their brackets meet."""
+    from stabilab.answers.stuck.fate import fate_under, outcome_of, scenario_of
+    from stabilab.answers.time_to import of_one
+    scenario, rng = scenario_of(load(case_file(OFF.replace("{spin}", "0.9"), "off"))), np.random.default_rng(7)
+    for torque in rng.normal(size=(2, 3)) / 20:
+        torque = tuple(map(Fraction, torque.tolist()))
+        noted = outcome_of(scenario, torque)
+        assert fate_under(scenario, torque) == noted.fate and noted.when.level == "proved"
+        assert "compiled" in of_one(scenario.scene(torque), scenario.start, scenario.state,
+                                    scenario.exact_limit, None, steps_first=True).because
+        integers = of_one(scenario.scene(torque), scenario.start, scenario.state, scenario.exact_limit, None)
+        assert integers.level == "proved" and "compiled" not in integers.because
+        assert (noted.when.low <= integers.high and integers.low <= noted.when.high
+                and noted.when.high - noted.when.low < 1e-11 * noted.when.low)

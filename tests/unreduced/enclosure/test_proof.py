@@ -8,7 +8,8 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Scene
 from stabilab.numbers.numba_door import installed
-from stabilab.unreduced.enclosure import _up, proved
+from stabilab.unreduced import enclosure_kernel
+from stabilab.unreduced.enclosure import _up, _Way, proved
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.follow import LEVELS, spin_up, spin_up_many
 from tests.oracles.pairs import model_of
@@ -103,3 +104,19 @@ def test_the_radius_of_a_ball_does_not_vanish_in_small_units():
     for small in (Fraction(1), Fraction(1, 10**170), Fraction(1, 10**300)):
         assert _up([3 * small, 4 * small]) == pytest.approx(float(5 * small), rel=1e-11)  # Pythagoras
         assert _up(np.array([3.0, 4.0]) * float(small)) >= 5 * small
+
+
+@pytest.mark.parametrize("length, steps", (
+    (lambda n: 1e3 / (1e3 + n), 2 * 8192),  # shorter and shorter
+    (lambda n: 1.0, 8 * 8192), (lambda n: 1.0 + n, 8 * 8192)))  # as long as ever, longer: followed
+def test_a_way_whose_steps_grow_shorter_is_given_up_where_those_left_cannot_reach(length, steps):
+    """Steps of lengths that are written here, summed here; a million time units are too far for the first two."""
+    class Course:
+        t, steps, status = 0.0, 0, enclosure_kernel.GOING
+
+        def advance(self, t, steps):
+            for _ in range(steps):
+                self.t, self.steps = self.t + length(self.steps), self.steps + 1
+    way = object.__new__(_Way)
+    way.course = Course()
+    assert way._slows_down(1e6, 150_000) == (steps < 8 * 8192) and way.course.steps == steps
