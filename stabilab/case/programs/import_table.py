@@ -47,7 +47,8 @@ DIGITS = str.maketrans("123", "xyz")
 NAMES = ("name", "body", "id", "title", "object", "spacecraft", "link name")
 # what marks a table of SolidWorks' exporter, its units, and columns that are 0 there: the tensor is along the
 # axes of the link
-EXPORTED, SI = {"link name", "moment ixx", "center of mass x"}, {INERTIA: "kg m^2", MASS: "kg", LENGTH: "m"}
+EXPORTED = {"link name", "moment ixx", "center of mass x"}
+SI: dict[Dimension, str] = {INERTIA: "kg m^2", MASS: "kg", LENGTH: "m"}
 UNTURNED = ("center of mass roll", "center of mass pitch", "center of mass yaw")
 
 

@@ -107,7 +107,8 @@ class Links:
 
     def joints(self, more: str) -> list[Joint]:
         """The joints between the links. more: what to do about one that is missing."""
-        return [Joint(joint, name, *(self._end(joint, prefix, tag, more) for tag in ("parent", "child")),
+        return [Joint(joint, name, self._end(joint, prefix, "parent", more),
+                      self._end(joint, prefix, "child", more),
                       joint.attributes.get("type") in MOVING) for joint, name, prefix in self.found]
 
     def _end(self, joint: Element, prefix: str, tag: str, more: str) -> str:

@@ -1,13 +1,13 @@
 """Words in axes in space, moved so that none stands on another."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
-    from matplotlib.text import Text
     from matplotlib.transforms import Bbox
     from mpl_toolkits.mplot3d import Axes3D
 
+Words: TypeAlias = Any  # a Text3D, which the types of Matplotlib's axes do not know
 # (whether on the other side of their place, by how many of their heights farther up), the first that fits
 PLACES = tuple((other, up) for ups in ((0.0, 1.0, -1.0), (2.0, -2.0, 3.0, -3.0)) for other in (False, True)
                for up in ups)
@@ -26,7 +26,7 @@ def apart(*panels: Axes3D) -> None:
         for text in ax.texts:
             if not text.get_text().strip():
                 continue
-            own = text.get_ha()
+            own = text.get_horizontalalignment()
             options = [(side, up, _box(ax, text, side, up))
                        for side, up in ((OTHER_SIDE[own] if other else own, up) for other, up in PLACES)]
             side, up, box = min(options, key=lambda one: _covered(one[2], placed, figure.bbox))
@@ -37,10 +37,11 @@ def apart(*panels: Axes3D) -> None:
 def boxes(ax: Axes3D) -> list[Bbox]:
     """Where the words of axes in space stand, in dots of the figure."""
     ax.figure.draw_without_rendering()
-    return [_box(ax, text, text.get_ha(), 0.0) for text in ax.texts if text.get_text().strip()]
+    return [_box(ax, text, text.get_horizontalalignment(), 0.0)
+            for text in ax.texts if text.get_text().strip()]
 
 
-def _box(ax: Axes3D, text: Text, side: str, up: float) -> Bbox:
+def _box(ax: Axes3D, text: Words, side: str, up: float) -> Bbox:
     """Where words would stand on that side of their place, so many of their heights farther up."""
     from matplotlib.text import Text as Flat
     from matplotlib.transforms import Bbox
@@ -51,7 +52,8 @@ def _box(ax: Axes3D, text: Text, side: str, up: float) -> Bbox:
     x, y, _ = proj3d.proj_transform(*text.get_position_3d(), ax.get_proj())
     x, y = text.get_transform().transform((x, y))
     left = x - size.width * {"left": 0.0, "center": 0.5, "right": 1.0}[side]
-    low = y + size.height * (up - {"bottom": 0.0, "center": 0.5, "top": 1.0}.get(text.get_va(), 0.0))
+    below = {"bottom": 0.0, "center": 0.5, "top": 1.0}.get(text.get_verticalalignment(), 0.0)
+    low = y + size.height * (up - below)
     return Bbox.from_bounds(left, low, size.width, size.height)
 
 
@@ -74,10 +76,10 @@ def _padded(words: str, side: str) -> str:
     return {"left": blanks + bare, "right": bare + blanks, "center": bare}[side]
 
 
-def _put(ax: Axes3D, text: Text, side: str, up: float) -> None:
+def _put(ax: Axes3D, text: Words, side: str, up: float) -> None:
     from matplotlib.transforms import ScaledTranslation
     text.set_text(_padded(text.get_text(), side))
-    text.set_ha(side)
+    text.set_horizontalalignment(side)
     if up:
         height = _box(ax, text, side, 0.0).height / ax.figure.dpi
         text.set_transform(text.get_transform() + ScaledTranslation(0.0, up * height,
