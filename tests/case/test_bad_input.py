@@ -17,6 +17,7 @@ from stabilab.case.read import load
 from stabilab.errors import BAD_INPUT, OK, CaseError, printable
 from tests.fuzz.grammar import CASES, mutated_cases, written_cases
 from tests.fuzz.judge import judged
+from tests.house.rooms import tree_of
 
 QUICK = settings(max_examples=200, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
@@ -144,7 +145,7 @@ def dangers(path, tree):
 
 def test_no_module_turns_text_into_code_or_objects():
     names = {path.relative_to(Path(stabilab_package.__file__).parent).as_posix(): path for path in SOURCES}
-    found = {name: dangers(name, ast.parse(path.read_text(encoding="utf-8"))) for name, path in names.items()}
+    found = {name: dangers(name, tree_of(path)) for name, path in names.items()}
     assert not {name: wrong for name, wrong in found.items() if wrong}
 
 

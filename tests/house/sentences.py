@@ -7,6 +7,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -14,6 +15,7 @@ from typing import Any
 
 from stabilab.errors import Caveat, Kind
 from stabilab.reasons import Reason, Sentence
+from tests.house.rooms import tree_of
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "stabilab"
@@ -81,9 +83,10 @@ def modules() -> Iterator[tuple[ast.Module, ModuleType]]:
         words = path.read_text(encoding="utf-8")
         if "Sentence(" in words and path.name != "reasons.py":  # the class itself
             name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
-            yield ast.parse(words), import_module(name)
+            yield tree_of(path), import_module(name)
 
 
+@cache
 def sentences() -> list[tuple[str, Sentence]]:
     """(the file that makes it, from the package's folder, the sentence) of all that modules have as
     constants, by their codes."""

@@ -28,6 +28,7 @@ from stabilab.physics import to_numpy as compiled
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.verify import numbers as precision
 from stabilab.verify import verify
+from tests.house.rooms import tree_of
 from tests.shared import case
 
 ROOT = Path(__file__).parents[2]
@@ -207,7 +208,7 @@ def sources(*words):
 
 @cache
 def nodes(path):
-    return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    return list(ast.walk(tree_of(path)))
 
 
 def test_only_gates_that_hold_a_lock_set_a_precision():

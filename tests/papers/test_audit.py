@@ -16,13 +16,11 @@ from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
 from stabilab.papers.audit.findings import examine, prove_systems, repairs, with_domain
 from stabilab.papers.audit.trends import missed as steps_missed
 from stabilab.papers.families import SPANS
-from stabilab.papers.index import recorded as recorded_verdicts
 from stabilab.theories import cavity, charged, top
 from stabilab.theories.printed.claims import FormulaError, parse, read, sides
 from stabilab.theories.printed.evaluate import Setting
+from tests.papers.recorded import PAPERS, RECORDED
 
-PAPERS = {name: audit.paper(name) for name in audit.papers()}
-RECORDED = {item.name: {found.row.equation: found.verdict for found in group} for item, group in recorded_verdicts()}
 DOCS = Path(__file__).parents[2] / "docs" / "audit.md"
 
 

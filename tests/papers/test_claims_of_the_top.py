@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from stabilab.papers.index import recorded
+from tests.papers.recorded import RECORDED
 
 
 def test_phi_of_the_papers_43_drifts_by_what_the_audit_says():
@@ -12,6 +12,5 @@ def test_phi_of_the_papers_43_drifts_by_what_the_audit_says():
                       + k * C1 * tan / 8 * (2 * r0 * t - np.sin(2 * r0 * t)))
     t = np.linspace(0, 3, 7)
     assert phi3(t + 2 * np.pi / r0) - phi3(t) == pytest.approx(2 * np.pi * (x0 + k * C1 * tan / 4), rel=1e-12)
-    verdicts = {found.row.equation: found.verdict for item, group in recorded() for found in group
-                if item.name == "newtonian-field-top"}
+    verdicts = RECORDED["newtonian-field-top"]
     assert (verdicts["text-fig6"], verdicts["text-fig6-1"]) == ("holds", "only-if")

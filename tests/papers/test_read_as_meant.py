@@ -4,8 +4,7 @@ import re
 
 import pytest
 
-from stabilab.papers.index import recorded
-from stabilab.theories.printed.claims import FOLDER, papers, read
+from tests.papers.recorded import PAPERS, RECORDED
 
 MEANT = {("newtonian-field-top", "3"), ("newtonian-field-top", "6"), ("newtonian-field-top", "13"),
          ("newtonian-field-top", "17"), ("newtonian-field-top", "29"), ("newtonian-field-top", "42"),
@@ -14,19 +13,18 @@ MEANT = {("newtonian-field-top", "3"), ("newtonian-field-top", "6"), ("newtonian
 
 
 def test_a_row_that_is_read_as_meant_says_so_and_is_not_wrong():
-    verdicts = {item.name: {found.row.equation: found.verdict for found in group} for item, group in recorded()}
-    rows = {(name, row.equation) for name in papers() for row in read(FOLDER / f"{name}.toml").rows
+    rows = {(name, row.equation) for name, paper in PAPERS.items() for row in paper.rows
             if "read as meant: " in row.options.get("note", "")}
     assert rows == MEANT
-    assert "wrong" not in {verdicts[name][equation] for name, equation in rows}
+    assert "wrong" not in {RECORDED[name][equation] for name, equation in rows}
 
 
-@pytest.mark.parametrize("name", papers())
+@pytest.mark.parametrize("name", PAPERS)
 def test_no_correction_changes_one_mark_alone(name):
     """A digit of an index, or an exponent in its place, and nothing else: a slip of the reading."""
     marks = re.compile(r"([A-Za-z]+)(?:\d+|\*\*\d+)?")
     of = lambda formula: [(match[1], match[0]) for match in marks.finditer(formula)]
-    for row in read(FOLDER / f"{name}.toml").rows:
+    for row in PAPERS[name].rows:
         # the undefined letter of liquid-cavity (19) is typed as d3
         if (row.equation.startswith("text") or row.kind in ("test", "number")
                 or (name, row.equation) == ("liquid-cavity", "19")):
