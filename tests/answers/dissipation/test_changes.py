@@ -1,5 +1,5 @@
 """By how much a damped spin may change before it ends in the other direction: against two bodies in space
-integrated apart (`brute`), in all frames, and one number after the other."""
+integrated apart, in all frames, and one number after the other."""
 import json
 import math
 from itertools import permutations, product
@@ -10,9 +10,10 @@ import pytest
 from stabilab import Body, Scene, ViscousDamper, flat_spin, load
 from stabilab.answers.dissipation import changes as spin_changes
 from stabilab.answers.dissipation.spinner import Spinner, after_the_separatrix
+from tests.oracles.two_bodies import crossing
 from tests.shared import later
 
-from .test_flat_spin import brute, drawn
+from .test_flat_spin import drawn
 
 RAHN_BARBA = (2000, 1500, 1000), 18, 30, (0.1224, 0, 2.99)
 
@@ -54,7 +55,7 @@ def about_the_minor_axis(D, omega, angle):
 
 
 def side(D, k, c, omega, until):
-    return brute(tuple(map(float, D)), k, c, tuple(map(float, omega)), until)[1]
+    return crossing(tuple(map(float, D)), k, c, tuple(map(float, omega)), until)[1]
 
 
 def same_in_all_frames(seed):
@@ -76,7 +77,7 @@ def same_in_all_frames(seed):
 
 
 def flat_crossing(D, k, c, omega):
-    return brute(tuple(D.tolist()), k, c, tuple(omega.tolist()), 1e4)[0]
+    return crossing(tuple(D.tolist()), k, c, tuple(omega.tolist()), 1e4)[0]
 
 
 def place(R, D, k, c, omega):

@@ -1,14 +1,13 @@
 """The end of a spin that loses energy: against an integration of the same bodies written another way, limits
 known by hand, and starts that leave it open."""
 import math
-from functools import cache
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, InputError, LiquidCavity, Scene, ViscousDamper, flat_spin, load
 from stabilab.answers.dissipation import flat_spin as dissipation
+from tests.oracles.two_bodies import crossing
 
 RAHN_BARBA = """[body]
 inertia = [2000, 1500, 1000]
@@ -33,45 +32,6 @@ def no_search(monkeypatch):
 def tumbled():
     """The spacecraft with its changes of the outcome."""
     return flat_spin(case())
-
-
-# --- Brute force, sharing no code: the attitude of the body as a quaternion and the angular momentum of the
-# sphere in space; that of the body is what remains of the constant total. In plain numbers, which are quicker.
-@cache
-def brute(D, k, c, omega, until, rtol=1e-11):
-    """(time at which 2 T D2 = |H|^2, sign of H along the major axis then) of two bodies in space."""
-    A = [d - k for d in D]
-    total = [d * w for d, w in zip(D, omega)]  # at the start the frames agree and the sphere turns with the body
-    major, middle, _ = sorted(range(3), key=lambda i: -D[i])
-    scale = sum(v * v for v in total)
-
-    def parts(y):
-        """Rows of the matrix from body to space, the body's rates."""
-        size = math.sqrt(y[0]**2 + y[1]**2 + y[2]**2 + y[3]**2)
-        a, b, c_, d = (v / size for v in y[:4])
-        R = ((1 - 2*(c_*c_ + d*d), 2*(b*c_ - a*d), 2*(b*d + a*c_)),
-             (2*(b*c_ + a*d), 1 - 2*(b*b + d*d), 2*(c_*d - a*b)),
-             (2*(b*d - a*c_), 2*(c_*d + a*b), 1 - 2*(b*b + c_*c_)))
-        x, y, z = (h - s for h, s in zip(total, y[4:]))
-        return R, [(R[0][i] * x + R[1][i] * y + R[2][i] * z) / A[i] for i in range(3)]
-
-    def rates(_, y):
-        y = [float(v) for v in y]
-        R, w = parts(y)
-        a, b, c_, d = y[:4]
-        return [0.5 * (-b*w[0] - c_*w[1] - d*w[2]), 0.5 * (a*w[0] + c_*w[2] - d*w[1]),
-                0.5 * (a*w[1] + d*w[0] - b*w[2]), 0.5 * (a*w[2] + b*w[1] - c_*w[0]),
-                *(-c * (s / k - row[0] * w[0] - row[1] * w[1] - row[2] * w[2]) for s, row in zip(y[4:], R))]
-
-    def height(_, y):
-        y = [float(v) for v in y]
-        _, w = parts(y)
-        return (sum(d * v * v for d, v in zip(A, w)) + sum(s * s for s in y[4:]) / k) * D[middle] - scale
-    height.terminal = True
-    run = solve_ivp(rates, (0, until), [1, 0, 0, 0, *(k * w for w in omega)], method="DOP853",
-                    rtol=rtol, atol=rtol * 1e-3, events=height)
-    R, _ = parts(run.y_events[0][0])
-    return run.t_events[0][0], int(np.sign(sum(R[i][major] * total[i] for i in range(3))))
 
 
 def drawn(seed):
@@ -102,7 +62,7 @@ def agrees(seed):
         # proved at the start: 2 T D2 < |H|^2 in fractions
         assert found.level == "exact"
         return True
-    t, sign = brute(tuple(D), k, c, tuple(omega), 2 * found.crosses.at)
+    t, sign = crossing(tuple(D), k, c, tuple(omega), 2 * found.crosses.at)
     assert found.crosses.at == pytest.approx(t, rel=1e-6)  # two integrations, the other at 1e-11
     assert (found.outcome == "positive major axis") == (sign > 0)
     assert found.final_rate == pytest.approx(math.hypot(*np.multiply(D, omega)) / max(D), rel=1e-14)
@@ -122,7 +82,7 @@ def test_five_hundred_damped_spinners_end_as_two_bodies_in_space_do(no_search, f
 def test_the_spacecraft_of_rahn_and_barba_tumbles_as_two_bodies_in_space_do(tumbled):
     """Its data (J. Guidance 14(4), 1991): I = (2000, 1500, 1000) with a slug of 18 kg m^2, mu = 30 N m s."""
     found = tumbled
-    t, sign = brute((2000, 1500, 1000), 18, 30, (0.1224, 0, 2.99), 1000)
+    t, sign = crossing((2000, 1500, 1000), 18, 30, (0.1224, 0, 2.99), 1000)
     assert found.outcome == ("positive major axis" if sign > 0 else "negative major axis")
     assert found.crosses.at == pytest.approx(t, rel=1e-8)
     assert found.rates == (sign * found.final_rate, 0, 0)
@@ -147,15 +107,15 @@ def test_the_outcome_changes_where_it_is_said_to(name, tumbled):
         L = [d * v for d, v in zip(D, w)]
         size = math.hypot(*L)
         if not s:
-            return brute(D, k, c, w, 1000)[1]
+            return crossing(D, k, c, w, 1000)[1]
         if name == "damping":
-            return brute(D, k * (1 + s), c * (1 + s), w, 1000)[1]
+            return crossing(D, k * (1 + s), c * (1 + s), w, 1000)[1]
         if name == "nutation":
             x, y = L[0] * (1 + s), 0.0
         else:  # u = (L1 sqrt(one), 0) turned along the circle that the polhode is in these coordinates
             x, y = L[0] * math.cos(s), L[0] * math.sin(s) * math.sqrt(one / two)
         moved = (x, y, math.sqrt(size**2 - x * x - y * y))
-        return brute(D, k, c, tuple(v / d for v, d in zip(moved, D)), 1000)[1]
+        return crossing(D, k, c, tuple(v / d for v, d in zip(moved, D)), 1000)[1]
     assert there(0.97 * span.up) == there(0) != there(1.03 * span.up)
 
 

@@ -2,58 +2,18 @@
 worked by hand."""
 import json
 import math
-from functools import cache
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from stabilab import Body, Gyrostat, InputError, LiquidCavity, Scene, ViscousDamper, flat_spin, load
 from stabilab.answers.dissipation import gyrostat
+from tests.oracles.two_bodies import brute
 
 
 def made(D, k, c, wheel, omega, damper=(0, 0, 0)):
     scene = Scene(Body(D), ViscousDamper(k, c), Gyrostat(wheel))
     return load(scene, {"omega": omega, "damper": damper})
-
-
-# --- Brute force, sharing no code: the attitude of the body as a quaternion and the angular momentum of the
-# sphere in space; that of the body and its wheel is what remains of the constant total
-@cache
-def brute(D, k, c, wheel, omega, until, level=None, rtol=1e-11):
-    """(times of the energy's fall to a level, the total in the body at the end, the energy then)."""
-    A = [d - k for d in D]
-    total = [d * w + l for d, w, l in zip(D, omega, wheel)]  # frames agree, the sphere turns with the body
-
-    def parts(y):
-        size = math.sqrt(sum(v * v for v in y[:4]))
-        a, b, c_, d = (v / size for v in y[:4])
-        R = ((1 - 2*(c_*c_ + d*d), 2*(b*c_ - a*d), 2*(b*d + a*c_)),
-             (2*(b*c_ + a*d), 1 - 2*(b*b + d*d), 2*(c_*d - a*b)),
-             (2*(b*d - a*c_), 2*(c_*d + a*b), 1 - 2*(b*b + c_*c_)))
-        x, y, z = (h - s for h, s in zip(total, y[4:]))
-        return R, [(R[0][i] * x + R[1][i] * y + R[2][i] * z - wheel[i]) / A[i] for i in range(3)]
-
-    def rates(_, y):
-        y = [float(v) for v in y]
-        R, w = parts(y)
-        a, b, c_, d = y[:4]
-        return [0.5 * (-b*w[0] - c_*w[1] - d*w[2]), 0.5 * (a*w[0] + c_*w[2] - d*w[1]),
-                0.5 * (a*w[1] + d*w[0] - b*w[2]), 0.5 * (a*w[2] + b*w[1] - c_*w[0]),
-                *(-c * (s / k - row[0] * w[0] - row[1] * w[1] - row[2] * w[2]) for s, row in zip(y[4:], R))]
-
-    def energy(y):
-        y = [float(v) for v in y]
-        _, w = parts(y)
-        return (sum(d * v * v for d, v in zip(A, w)) + sum(s * s for s in y[4:]) / k) / 2
-    height = lambda _, y: energy(y) - level
-    height.terminal = True
-    run = solve_ivp(rates, (0, until), [1, 0, 0, 0, *(k * w for w in omega)], method="DOP853", rtol=rtol,
-                    atol=rtol * 1e-3, events=None if level is None else height)
-    y = run.y_events[0][0] if level is not None and len(run.y_events[0]) else run.y[:, -1]
-    R, _ = parts([float(v) for v in y])
-    times = run.t_events[0].tolist() if level is not None else []
-    return times, [sum(R[i][n] * total[i] for i in range(3)) for n in range(3)], energy(y)
 
 
 def drawn(seed):
