@@ -11,19 +11,14 @@ from scipy.integrate import solve_ivp
 
 import stabilab as package
 from stabilab.errors import InputError
+from tests.oracles.rigid import euler, in_space, tensor
 from tests.shared import CASES
 
 
-def _sampled(torque, D, wheel, w, end, samples=4001):
-    """(angles of the three axes to the momentum, to their start) (samples, 3) along a run; torque: of the
-    attitude's rows R."""
+def _sampled(D, wheel, torque, w, end, samples=4001, damping=0):
+    """(angles of the three axes to the momentum, to their start) (samples, 3) along a run."""
     D, wheel = np.array(D, float), np.array(wheel, float)
-
-    def rates(t, y):
-        omega, R = y[:3], y[3:].reshape(3, 3)
-        turn = np.array([[0, -omega[2], omega[1]], [omega[2], 0, -omega[0]], [-omega[1], omega[0], 0]])
-        return [*((np.cross(D * omega + wheel, omega) + torque(omega)) / D), *(R @ turn).ravel()]
-    run = solve_ivp(rates, (0, end), [*w, *np.eye(3).ravel()], method="DOP853", rtol=1e-9, atol=1e-11,
+    run = solve_ivp(in_space(euler(D, wheel, torque, damping)), (0, end), [*w, *np.eye(3).ravel()], method="DOP853", rtol=1e-9, atol=1e-11,
                     t_eval=np.linspace(0, end, samples))
     H = D * run.y[:3].T + wheel
     R = run.y[3:].reshape(3, 3, -1)
@@ -42,15 +37,15 @@ def _random(n):
     effects |= {"rate_damper": {"coefficient": C}} if C else {}
     case = package.load({"body": {"inertia": D.tolist()}, "effects": effects,
                          "motion": {"angular_velocity": w.tolist(), "span": [0, 20]}})
-    return case, (lambda omega: M - C * omega), D, wheel, w
+    return case, D, wheel, M, w, C
 
 
 @pytest.mark.first(6, 30)
 @pytest.mark.parametrize("n", range(300))
 def test_the_angles_of_a_random_motion_are_the_largest_of_its_run(n):
-    case, torque, D, wheel, w = _random(n)
+    case, D, wheel, torque, w, damping = _random(n)
     found = case.angles()
-    to_momentum, to_start = _sampled(torque, D, wheel, w, 20.0)
+    to_momentum, to_start = _sampled(D, wheel, torque, w, 20.0, damping=damping)
     low, high, apart = to_momentum.min(axis=0), to_momentum.max(axis=0), to_start.max(axis=0)
     slack = 1e-4  # of cosines: between samples an extreme is missed by the square of their distance
     assert (found.momentum[:, 0] <= low + 1e-7).all() and (found.momentum[:, 1] >= high - 1e-7).all()
@@ -68,7 +63,7 @@ def test_of_a_free_body_they_are_those_of_its_cone():
     """Oracle: cos = D omega/|H| at the extremes of each rate; a long run comes near the bound of the start."""
     D, w = np.array([3.0, 2.5, 1.0]), np.array([0.3, 0.1, 1.0])
     case = package.load({"body": {"inertia": [3, "2.5", 1]}, "motion": {"angular_velocity": ["0.3", "0.1", 1]}})
-    found, (to_momentum, to_start) = case.angles(), _sampled(lambda omega: 0, D, [0, 0, 0], w, 150.0, 8001)
+    found, (to_momentum, to_start) = case.angles(), _sampled(D, [0, 0, 0], [0, 0, 0], w, 150.0, 8001)
     assert found.level == "exact" and found.for_all_time
     np.testing.assert_allclose(found.momentum[:, 0], to_momentum.min(axis=0), atol=5e-5)  # of its samples
     np.testing.assert_allclose(found.momentum[:, 1], to_momentum.max(axis=0), atol=5e-5)
@@ -82,8 +77,7 @@ def test_an_axis_of_the_file_across_principal_axes_has_its_range_from_a_period()
     J = np.array([[3, 0.4, 0], [0.4, 2, 0.2], [0, 0.2, 1.5]])
     case = package.load({"body": {"inertia": J.tolist()}, "motion": {"angular_velocity": [0.2, 1, 0.3]}})
     found = case.angles(axes="z")
-    w0, inverse = np.array([0.2, 1, 0.3]), np.linalg.inv(J)
-    run = solve_ivp(lambda t, w: inverse @ np.cross(J @ w, w), (0, 40), w0, method="DOP853",
+    run = solve_ivp(tensor(J), (0, 40), [0.2, 1, 0.3], method="DOP853",
                     rtol=1e-9, atol=1e-11, t_eval=np.linspace(0, 40, 8001))
     H = J @ run.y
     angle = np.arccos(H[2] / np.linalg.norm(H, axis=0))  # SciPy, in the frame of the file
@@ -98,7 +92,7 @@ def test_a_motor_a_little_off_the_axis_of_a_fast_spinner():
     case = package.load({"body": {"inertia": D}, "effects": {"constant_torque": {"torque": M.tolist()}},
                          "motion": {"angular_velocity": w, "span": [0, 8]}})
     found = case.angles(axes="z")
-    to_momentum, to_start = _sampled(lambda omega: M, D, [0, 0, 0], w, 8.0, 8001)
+    to_momentum, to_start = _sampled(D, [0, 0, 0], M, w, 8.0, 8001)
     assert found.level == "run" and found.start[0] == pytest.approx(to_start[:, 2].max(), rel=1e-5)
     assert found.momentum[0, 1] == pytest.approx(to_momentum[:, 2].max(), rel=1e-5)
     assert not math.isfinite(case.when(tilt=("z", found.start[0] * 1.01), until=8).high)
@@ -166,7 +160,7 @@ def test_under_a_torque_on_an_axis_an_axis_keeps_to_a_cone_for_all_times(n):
         pytest.skip("it spins up")
     found = case.angles(axes="3")
     end = 15 * case.motion().period
-    to_momentum, to_start = _sampled(lambda omega: M, D, [0, 0, 0], w, end, 6001)
+    to_momentum, to_start = _sampled(D, [0, 0, 0], M, w, end, 6001)
     assert found.for_all_time and found.level == "run"
     assert found.momentum[0, 1] == pytest.approx(to_momentum[:, 2].max(), abs=1e-4)
     assert 0.8 * found.start[0] <= to_start[:, 2].max() <= found.start[0] * (1 + 1e-6)

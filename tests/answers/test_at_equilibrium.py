@@ -18,17 +18,13 @@ from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.viscous_damper import ViscousDamper
 from stabilab.show.text import headline
-
-
-def euler(D, wheel=(0, 0, 0), torque=(0, 0, 0)):
-    D, wheel, torque = (np.array(v, float) for v in (D, wheel, torque))
-    return lambda w: (np.cross(D * w + wheel, w) + torque) / D
+from tests.oracles.rigid import euler, with_a_direction
 
 
 def growth_by_differences(rate, w):
     """The largest real part of the eigenvalues of the Jacobian by central differences."""
     w, h = np.array(w, float), 1e-6
-    J = np.array([(rate(w + h * e) - rate(w - h * e)) / (2 * h) for e in np.eye(len(w))]).T
+    J = np.array([np.subtract(rate(0, w + h * e), rate(0, w - h * e)) / (2 * h) for e in np.eye(len(w))]).T
     return np.linalg.eigvals(J).real.max()
 
 
@@ -37,7 +33,7 @@ def departs(rate, w, until, push=1e-4):
     w = np.array(w, float)
     far = 0.0
     for direction in np.random.default_rng(3).normal(size=(4, len(w))):
-        run = solve_ivp(lambda t, y: rate(y), (0, until), w + push * direction / np.linalg.norm(direction),
+        run = solve_ivp(rate, (0, until), w + push * direction / np.linalg.norm(direction),
                         method="DOP853", rtol=1e-10, atol=1e-13)
         far = max(far, np.abs(run.y - w[:, None]).max())
     return far / push
@@ -86,16 +82,6 @@ def test_a_state_of_equilibrium_of_a_gyrostat_has_its_stability_and_rate_of_grow
     assert [one.kind for one in found.caveats if one.kind == "unstable"] == ["unstable"] * (verdict == "unstable")
 
 
-def top(D, weight):
-    """omega' and gamma' of a heavy top, weight w along gamma at the place (0, 0, 1): D w' = D w x w + s x gamma."""
-    D, s = np.array(D, float), np.array([0, 0, weight], float)
-
-    def rate(y):
-        w, g = y[:3], y[3:]
-        return np.concatenate([(np.cross(D * w, w) + np.cross(s, g)) / D, np.cross(g, w)])
-    return rate
-
-
 @pytest.mark.parametrize("third, spin", [(2, 0.3), (2, 0.4), (2, 0.55), (1.5, 0.3), (1.5, 0.6), (1.5, 0.7)])
 def test_a_sleeping_top_is_unstable_below_its_critical_spin_and_says_how_fast(third, spin):
     """Lagrange: stable for (D3 spin)^2 > 4 D1 m g l."""
@@ -107,7 +93,7 @@ def test_a_sleeping_top_is_unstable_below_its_critical_spin_and_says_how_fast(th
     assert found.stability.unstable != stable
     if not stable:
         # upright: gamma, the direction of the weight, is -e3
-        grows = growth_by_differences(top(D, m * g * l), [0, 0, spin, 0, 0, -1])
+        grows = growth_by_differences(with_a_direction(D, arm=(0, 0, m * g * l)), [0, 0, spin, 0, 0, -1])
         assert found.stability.growth == pytest.approx(grows, rel=1e-4)
 
 

@@ -7,6 +7,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from stabilab import Body, ConstantTorque, Gyrostat, InputError, Scene, simulate
+from tests.oracles.rigid import euler, in_space
 from tests.shared import CASES
 
 BODY = "[body]\ninertia = [3, 2, 1.5]\n"
@@ -21,12 +22,8 @@ TIMES = [0, 4, 9.5, 20]
 
 def _turned(first=None, wheel=WHEEL, torque=TORQUE):
     """(rates, matrices from body to space) at the times, by DOP853 for R' = R [omega x]."""
-    def rate(_, y):
-        w, R = y[:3], y[3:].reshape(3, 3)
-        return [*((np.cross(D * w + wheel, w) + torque) / D),
-                *(R @ [[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]).ravel()]
     first = np.eye(3) if first is None else first
-    run = solve_ivp(rate, (0, 20), [*START, *first.ravel()], method="DOP853", t_eval=TIMES, rtol=1e-12,
+    run = solve_ivp(in_space(euler(D, wheel, torque)), (0, 20), [*START, *first.ravel()], method="DOP853", t_eval=TIMES, rtol=1e-12,
                     atol=1e-13)
     return run.y[:3].T, run.y[3:].T.reshape(-1, 3, 3)
 

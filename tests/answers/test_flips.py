@@ -11,6 +11,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene, load
 from stabilab.answers.motion import motion
 from stabilab.show.text.headline import headline
 from stabilab.show.units import SI
+from tests.oracles.rigid import euler
 from tests.shared import case
 
 RACKET = """
@@ -24,7 +25,7 @@ span = [0, "6 s"]
 
 def run(D, wheel, torque, omega, end):
     """(SciPy's DOP853, with the zeros of the three components of H = D omega + wheel)."""
-    rates = lambda t, x: (np.cross(D * x + wheel, x) + torque) / D
+    rates = euler(D, wheel, torque)
     zeros = [lambda t, x, i=i: D[i] * x[i] + wheel[i] for i in range(3)]
     return solve_ivp(rates, (0, end), omega, method="DOP853", rtol=1e-10, atol=1e-12, events=zeros,
                      dense_output=True)

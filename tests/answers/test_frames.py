@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import stabilab
+from tests.oracles.rigid import tensor
 
 TENSOR = np.array([[12, 0.5, 0], [0.5, 9, 0.3], [0, 0.3, 7]])
 TORQUE, WHEEL, RATES = np.array([0.01, 0, 0]), np.array([0, 0.2, 0.1]), np.array([0.1, 0.2, 0.3])
@@ -24,9 +25,7 @@ def case():
 @pytest.fixture(scope="module")
 def expected():
     """Rates (3, 3) at TIMES: I w' = (I w + h) x w + M in the frame of the file, by DOP853."""
-    def rates(t, w):
-        return np.linalg.solve(TENSOR, np.cross(TENSOR @ w + WHEEL, w) + TORQUE)
-    return solve_ivp(rates, (0, 5), RATES, "DOP853", TIMES, rtol=1e-12, atol=1e-13).y.T
+    return solve_ivp(tensor(TENSOR, WHEEL, TORQUE), (0, 5), RATES, "DOP853", TIMES, rtol=1e-12, atol=1e-13).y.T
 
 
 def test_tables_of_a_run_are_in_the_frame_of_the_file(case, expected):

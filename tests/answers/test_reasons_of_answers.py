@@ -14,6 +14,7 @@ from stabilab.answers.dissipation import flat_spin as flat_spins
 from stabilab.answers.dissipation.flat_spin import UNDECIDED
 from stabilab.answers.uncertain import search
 from stabilab.reasons import Axis
+from tests.oracles.rigid import damped
 
 SPINNER = """[body]
 inertia = [{inertia}]
@@ -68,11 +69,7 @@ def test_a_disc_that_is_near_its_plane_at_the_start_ends_about_an_axis_in_it():
     D, k, c, w = np.array([12, 12, 5.0]), 0.5, 0.1, [1, 0.1, 0.1]
     found = flat_spin(SPINNER.format(inertia="12, 12, 5", coefficient=c, rates="1, 0.1, 0.1"))
     assert (found.outcome, found.level, found.settles) == ("across the minor axis", "exact", None)
-
-    def rate(t, y):  # (D - k) omega' = D omega x omega + c sigma, sigma' = -c sigma/k - omega x sigma - omega'
-        turned = (np.cross(D * y[:3], y[:3]) + c * y[3:]) / (D - k)
-        return [*turned, *(-c * y[3:] / k - np.cross(y[:3], y[3:]) - turned)]
-    end = solve_ivp(rate, [0, 3000], [*w, 0, 0, 0], method="DOP853", rtol=1e-9, atol=1e-12).y[:3, -1]
+    end = solve_ivp(damped(D, k, c), [0, 3000], [*w, 0, 0, 0], method="DOP853", rtol=1e-9, atol=1e-12).y[:3, -1]
     assert abs(end[2]) < 0.02 * abs(w[2]) and math.hypot(*end[:2]) > 1  # SciPy: in the plane of the greatest moments
 
 

@@ -15,6 +15,7 @@ from stabilab.errors import InputError
 from stabilab.physics.effects import effect_class
 from stabilab.physics.states import angles, quaternion, to_space
 from tests.oracles import euler
+from tests.oracles.rigid import with_a_direction
 from tests.shared import CASES
 
 
@@ -35,10 +36,7 @@ def test_how_far_a_law_holds_is_the_largest_departure_between_the_steps_as_well(
     case = load(CASES / "charged-body.toml")
     D, angle = np.array([8.7, 8.6, 11.1]), 0.37
     wheel = np.array([0, 0, 1.3 - 0.003 * 100 * 1.02**2 * math.cos(angle)])
-
-    def rates(_, y):
-        return [*(np.cross(D * y[:3] + wheel, y[:3]) + [4, 0, 0]) / D, *np.cross(y[3:], y[:3])]
-    run = solve_ivp(rates, (0, 50), [0, 0, 0.28274333882308139, 0, 0, 1], "DOP853", np.linspace(0, 50, 100_001),
+    run = solve_ivp(with_a_direction(D, wheel, [4, 0, 0]), (0, 50), [0, 0, 0.28274333882308139, 0, 0, 1], "DOP853", np.linspace(0, 50, 100_001),
                     rtol=1e-11, atol=1e-13)
     largest = np.abs(run.y[5] / math.cos(angle) - 1).max()  # between these times up to 1e-7 more
     for method, off in (("taylor", 1e-6), ("DOP853", 1e-3)):

@@ -16,18 +16,14 @@ from stabilab import attitude
 from stabilab.errors import ToleranceNotMet
 from tests.oracles import energy
 from tests.oracles.model import physical
+from tests.oracles.rigid import euler, in_space, with_a_direction
 
 LONG = [pytest.mark.slow, pytest.mark.long]
 
 
 def run(D, wheel, torque, omega, times):
     """(rates (n, 3), matrices from body to space (n, 3, 3)) at the times."""
-    def rates(_, y):
-        w, C = y[:3], y[3:].reshape(3, 3)
-        cross = np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
-        return np.concatenate([(np.cross(D * w + wheel, w) + torque) / D, (C @ cross).ravel()])
-
-    y = solve_ivp(rates, (0, times[-1]), [*omega, *np.eye(3).ravel()], "DOP853", t_eval=times, rtol=3e-14,
+    y = solve_ivp(in_space(euler(D, wheel, torque)), (0, times[-1]), [*omega, *np.eye(3).ravel()], "DOP853", t_eval=times, rtol=3e-14,
                   atol=1e-14 * np.abs(omega).max()).y.T
     return y[:, :3], y[:, 3:].reshape(-1, 3, 3)
 
@@ -182,12 +178,11 @@ def top_of(A, C, wheel, arm):
 def top_run(A, C, wheel, arm, start, end):
     """(leans, azimuth of the axis that was passed at the end) by Euler's and Poisson's equations as they
     stand."""
-    D, c, sign = np.array([A, A, C]), np.array([0, 0, arm]), -math.copysign(1, arm)
+    turning, sign = with_a_direction([A, A, C], (0, 0, wheel), arm=(0, 0, arm)), -math.copysign(1, arm)
 
-    def rates(_, y):
-        w, gamma = y[:3], y[3:6]
-        azimuth = (w @ gamma - w[2] * gamma[2]) / (1 - gamma[2] ** 2)
-        return [*(np.cross(D * w + [0, 0, wheel], w) + np.cross(c, gamma)) / D, *np.cross(gamma, w), azimuth]
+    def rates(t, y):
+        u, v, _, a, b, c, _ = y.tolist()
+        return [*turning(t, y[:6]), (u * a + v * b) / (1 - c * c)]
     y = solve_ivp(rates, (0, end), [*start, 0.0], "DOP853", rtol=1e-12, atol=1e-14,
                   t_eval=np.linspace(0, end, 20_001)).y
     return np.arccos(np.clip(sign * y[5], -1, 1)), y[6, -1]

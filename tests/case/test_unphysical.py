@@ -13,6 +13,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.case.read import read_text
 from stabilab.errors import CaseError
 from stabilab.numbers.exact import half_unit
+from tests.oracles.rigid import euler
 
 
 def caveats(inertia, more=""):
@@ -98,7 +99,7 @@ def test_fates_extremes_and_equilibria_are_those_of_eulers_equations():
         start, scene = rng.normal(size=3), Scene(Body(tuple(D)), Gyrostat(tuple(wheel)),
                                                  ConstantTorque(tuple(torque)))
         assert scene.body.caveats
-        rate = lambda t, w, D=D, h=wheel, M=torque: (np.cross(D * w + h, w) + M) / D
+        rate = euler(D, wheel, torque)
         found = stabilab.motion(scene, tuple(start))
         words.append(found.fate.word)
         run = solve_ivp(rate, (0, 5), start, method="DOP853", rtol=1e-9, atol=1e-10, dense_output=True)

@@ -12,6 +12,7 @@ import stabilab
 from stabilab.errors import InputError
 from stabilab.maps.percentiles import of_burn_drawn
 from stabilab.maps.plan import Plan
+from tests.oracles.rigid import euler
 
 D, ARM, START = np.array([9.0, 12.0, 5.0]), np.array([0.3, -0.1, 0.2]), [0.05, 0.4, -0.1]
 CASE = f"""[body]
@@ -37,7 +38,7 @@ def followed(force, first, until, events=None):
     torque = np.cross(ARM, force * DIRECTION)
     state, parts = np.array([first, *START[1:]]), []
     for a, b, level in ((0, 2, 1), (2, 6, 0.4), (6, until, 0)):
-        run = solve_ivp(lambda t, w: (np.cross(D * w, w) + level * torque) / D, (a, b), state, "DOP853", rtol=1e-11, atol=1e-13,
+        run = solve_ivp(euler(D, torque=level * torque), (a, b), state, "DOP853", rtol=1e-11, atol=1e-13,
                         dense_output=True, events=events)
         parts.append(run)
         state = run.y[:, -1]
@@ -94,7 +95,7 @@ def closed(force, first, when):
     torque, state, parts = np.cross(ARM, force * DIRECTION), np.array([first, *START[1:]]), []
     for a, b, level in ((0, min(2, when), 1), (min(2, when), when, 0.4), (when, when + 200, 0)):
         if b > a:
-            run = solve_ivp(lambda t, w: (np.cross(D * w, w) + level * torque) / D, (a, b), state, "DOP853", rtol=1e-11,
+            run = solve_ivp(euler(D, torque=level * torque), (a, b), state, "DOP853", rtol=1e-11,
                             atol=1e-13, dense_output=True)
             parts.append(run)
             state = run.y[:, -1]

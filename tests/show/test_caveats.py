@@ -14,6 +14,7 @@ from stabilab.answers.caveats import caveats_of
 from stabilab.case.read import load
 from stabilab.show.explore.session import Session
 from stabilab.show.report import one_case
+from tests.oracles.rigid import euler
 from tests.shared import craft_file, in_one_line
 from tests.show.explore.test_session import ask
 
@@ -164,6 +165,6 @@ def first_time(case, torque, rate):
     at_limit = lambda t, w: np.dot(w, w) - rate**2
     at_limit.terminal = True
     start = [math.radians(6), 0, 0.01]
-    run = solve_ivp(lambda t, w: (np.cross(D * w + wheel, w) + torque) / D, (0, 1e4), start, "DOP853",
+    run = solve_ivp(euler(D, wheel, torque), (0, 1e4), start, "DOP853",
                     events=at_limit, rtol=1e-11, atol=1e-13)
     return run.t_events[0][0]

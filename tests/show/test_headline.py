@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from stabilab import Body, Gyrostat, Scene, load, motion
 from stabilab.show.plot.subject import subject
 from stabilab.show.text.headline import FIRST, bracketed, headline, two_lines
+from tests.oracles.rigid import euler
 from tests.shared import MOVING
 
 BODY, WHEEL, TORQUE = map(np.array, ([12.0, 9, 5], [0.8, 0, 0], [0, 0, 0.02]))
@@ -17,7 +18,7 @@ START = [0.1, 0.05, 0.02]
 
 def followed(start, end):
     """A run of SciPy's DOP853 of Euler's equations written out here: rates at 20,001 times."""
-    run = solve_ivp(lambda t, w: (np.cross(BODY * w + WHEEL, w) + TORQUE) / BODY, (0, end), start, "DOP853",
+    run = solve_ivp(euler(BODY, WHEEL, TORQUE), (0, end), start, "DOP853",
                     np.linspace(0, end, 20001), rtol=1e-11, atol=1e-13)
     return run.t, run.y
 

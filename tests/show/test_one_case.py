@@ -23,6 +23,7 @@ from stabilab.show.space import Box
 from stabilab.show.terminal import printed
 from stabilab.show.text import headline
 from stabilab.show.units import DEG, units_of
+from tests.oracles.rigid import euler
 from tests.shared import CASES, in_one_line
 
 MINOR = CASES / "minor-axis-100.toml"
@@ -61,7 +62,7 @@ def test_the_tiles_have_the_outcome_when_the_largest_rate_and_the_distance(tmp_p
         moments, wheel = SATELLITE
         over = lambda t, w: np.hypot(np.hypot(*w[:2]), w[2]) - limit
         over.terminal = True
-        return solve_ivp(lambda t, w: (np.cross(moments * w + wheel, w) + torque) / moments, (0, end),
+        return solve_ivp(euler(moments, wheel, torque), (0, end),
                          [0.1, 0, 0.01], "DOP853", rtol=1e-11, atol=1e-13, events=over, max_step=end / 2000)
     found = {}
     for name, torque in (("leaves", [0.0, 0, 3]), ("stays", [0.0, 0, 0.001])):

@@ -21,6 +21,7 @@ from stabilab.show.plot import subject as which
 from stabilab.show.plot.over_time import limit_marks
 from stabilab.show.text import cost
 from tests import shared
+from tests.oracles.rigid import euler
 from tests.shared import case as load
 
 MOVING = f"{shared.MOVING}span = [0, 100]\n"
@@ -149,8 +150,7 @@ def test_drawn_rates_are_those_of_the_motion():
     from scipy.integrate import solve_ivp
     t, rates = path.path(subject.subject(stabilab.load(MOVING)), 0.0, 100.0)
     D, wheel, torque = np.array([12.0, 9.0, 5.0]), np.array([0.8, 0, 0]), np.array([0, 0, 0.02])
-    euler = lambda _, w: (np.cross(D * w + wheel, w) + torque) / D
-    run = solve_ivp(euler, (0, 100), (0.1, 0.05, 0.02), method="DOP853", t_eval=t[::50], rtol=1e-11,
+    run = solve_ivp(euler(D, wheel, torque), (0, 100), (0.1, 0.05, 0.02), method="DOP853", t_eval=t[::50], rtol=1e-11,
                     atol=1e-13)
     assert np.abs(run.y.T - rates[::50]).max() < 1e-8
 
@@ -279,7 +279,7 @@ def test_a_band_of_uncertain_rates_holds_the_motions_at_its_corners():
         a, b, c, d, e = sign
         D, wheel = np.array([20 * (1 + 0.01 * a), 15 * (1 + 0.01 * b), 10]), np.array([3 + 0.05 * c, 2, 0])
         torque = np.array([0, 0, 0.1 * (1 + 0.05 * d)])
-        run = solve_ivp(lambda t, w: (np.cross(D * w + wheel, w) + torque) / D, (0, 5),
+        run = solve_ivp(euler(D, wheel, torque), (0, 5),
                         [0.2, 0.15, 1.7 + 0.02 * e], "DOP853", rtol=1e-9, atol=1e-12)
         ends.append(np.degrees(run.y[:, -1]))
     ends = np.array(ends)

@@ -12,6 +12,7 @@ from stabilab.show import style
 from stabilab.show.plot import subject, to_file
 from stabilab.show.plot import subject as which
 from stabilab.unreduced.periodic import crossed, neighbours_of, returns
+from tests.oracles.rigid import euler
 from tests.shared import case as load
 
 MOTION, BLUE, VERMILION, SAGE = style.VIOLET, style.BLUE, style.VERMILION, style.SAGE
@@ -30,10 +31,6 @@ def dots(ax, colour, alone=None):
                              and alone in (None, len(line.get_xdata()) == 1))])
 
 
-def euler(_, w):
-    return (M - np.cross(w, D * w + WHEEL)) / D
-
-
 @pytest.fixture(scope="module")
 def island():
     yield stabilab.plot.section(ISLAND, START, units="si", neighbours=4, passages=60)
@@ -45,7 +42,7 @@ def passed(start, axis, level, count, span):
     from scipy.integrate import solve_ivp
     event = lambda t, w: w[axis] - level
     event.direction = 1
-    return solve_ivp(euler, (0, span), start, "DOP853", rtol=1e-12, atol=1e-13,
+    return solve_ivp(euler(D, WHEEL, M), (0, span), start, "DOP853", rtol=1e-12, atol=1e-13,
                      events=event).y_events[0][:count]
 
 
@@ -62,7 +59,7 @@ def test_a_passage_that_is_undone_within_the_same_step_is_found():
     from scipy.integrate import solve_ivp
 
     from stabilab.unreduced.periodic import Section, passage
-    run = solve_ivp(euler, (0, 12), START, "DOP853", rtol=1e-12, atol=1e-13, max_step=0.01)
+    run = solve_ivp(euler(D, WHEEL, M), (0, 12), START, "DOP853", rtol=1e-12, atol=1e-13, max_step=0.01)
     for axis in range(3):
         top = int(run.y[axis].argmax())
         assert 0 < top < len(run.t) - 1
@@ -101,7 +98,7 @@ def test_neighbours_inside_the_island_stay_and_those_far_outside_leave(island):
                            orbit.section, 4)
     far = lambda _, w: np.abs(w).max() - FAR
     far.terminal = True
-    ended = [len(solve_ivp(euler, (0, 60 * orbit.period), start, "DOP853", rtol=1e-8, atol=1e-8,
+    ended = [len(solve_ivp(euler(D, WHEEL, M), (0, 60 * orbit.period), start, "DOP853", rtol=1e-8, atol=1e-8,
                            events=far).t_events[0]) for start in starts[[0, 1, 3]]]
     assert ended == [0, 0, 1]
 

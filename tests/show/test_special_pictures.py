@@ -12,6 +12,7 @@ from stabilab.show.plot import canvas, to_file
 from stabilab.show.plot import subject as subjects
 from stabilab.show.plot.subject import measures, subject
 from stabilab.show.report import one_case
+from tests.oracles.rigid import euler
 from tests.shared import CASES
 
 BURN = """
@@ -41,7 +42,7 @@ def rates(times):
     """(n, 3), deg/s: by DOP853, pulse by pulse."""
     state, out = START, []
     for begin, end, fires in PULSES:
-        run = solve_ivp(lambda _, w, fires=fires: (fires * TORQUE - np.cross(w, D * w)) / D, (begin, end), state,
+        run = solve_ivp(euler(D, torque=fires * TORQUE), (begin, end), state,
                         "DOP853", rtol=1e-11, atol=1e-12, dense_output=True)
         inside = times[(times >= begin) & (times < end)]
         out += [run.sol(inside).T] if len(inside) else []

@@ -11,6 +11,7 @@ from stabilab import errors
 from stabilab.answers.tilt import by_angle
 from stabilab.answers.when import limit_of
 from stabilab.show.plot import over_time
+from tests.oracles.rigid import euler
 from tests.shared import case as load
 
 
@@ -20,7 +21,7 @@ def first_at(case, torque, limit):
                 for row in (case.scene.body.exact, case.scene.vector("gyrostat")))
     over = lambda t, w: np.linalg.norm(w) - limit
     over.terminal = True
-    run = solve_ivp(lambda t, w: (np.cross(D * w + wheel, w) + torque) / D, (0, 500), case.state, "DOP853",
+    run = solve_ivp(euler(D, wheel, torque), (0, 500), case.state, "DOP853",
                     rtol=1e-10, atol=1e-13, events=over, max_step=1.0)
     return run.t_events[0][0]
 

@@ -8,6 +8,7 @@ from stabilab.show.plot.in_space import space_of
 from stabilab.show.plot.subject import subject
 from stabilab.show.space import Box, shifted
 from stabilab.show.turns import band
+from tests.oracles.rigid import euler
 from tests.shared import case as load
 
 DEG = ("deg/s", 180 / math.pi)
@@ -72,7 +73,7 @@ def test_the_band_of_a_spin_up_is_where_another_integrator_goes_and_its_limit_st
     assert sorted(texts)[1:] == ["limit, 9.833 min", "start, 0 min"] and len(found.lines) == len(found.arrows) == 3
     D, M = (np.array([float(v) for v in row]) for row in (item.scene.body.inertia, item.scene.vector("constant_torque")))
     end = 60 * float(min(texts, key=len).removesuffix(" min"))
-    run = solve_ivp(lambda t, w: (M - np.cross(w, D * w)) / D, (0, end), item.state, "DOP853", rtol=1e-10,
+    run = solve_ivp(euler(D, torque=M), (0, end), item.state, "DOP853", rtol=1e-10,
                     atol=1e-12, max_step=0.3)
     points = np.array(grid.points)
     swing = np.ptp(run.y, axis=1)

@@ -12,6 +12,7 @@ from stabilab.errors import InputError
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
+from tests.oracles.rigid import euler
 
 LIQUID = LiquidCavity(1250, 1000, "0.1")  # kappa = 1/8
 SWINGING = Charge("0.3", 2, 1, "attitude")  # its angle follows the attitude: gamma is part of the state
@@ -53,7 +54,7 @@ def test_a_decay_too_fast_for_the_span_is_said_so():
     found = motion(Scene(BODY, Resistance(1000)), ROW, (0, 1e6))  # exp(-1e9)
     assert found.fate == Fate.BOUNDED and "too fast" in found.extremes_over
     near = motion(Scene(BODY, Resistance("0.5")), ROW, (0, 2))
-    run = solve_ivp(lambda t, w: np.cross(np.array((9, 8, 5)) * w, w) / (9, 8, 5) - 0.5 * w, (0, 2), ROW,
+    run = solve_ivp(euler((9, 8, 5), damping=(4.5, 4, 2.5)), (0, 2), ROW,
                     rtol=1e-11, atol=1e-12, max_step=1e-3)
     np.testing.assert_allclose(near.extremes, np.stack([run.y.min(axis=1), run.y.max(axis=1)], axis=1),
                                atol=1e-6)

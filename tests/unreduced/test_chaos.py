@@ -10,6 +10,7 @@ from stabilab import Body, Gravity, Scene
 from stabilab.physics.to_numpy import equations_of, form
 from stabilab.unreduced import chaos
 from stabilab.unreduced.chaos import growth, turn_of, varied
+from tests.oracles.rigid import with_a_direction
 from tests.shared import case
 
 D, ARM = np.array([1.0, 1.6, 2.2]), np.array([0.3, 0.2, 0.6])
@@ -66,9 +67,7 @@ def test_a_heavy_top_is_chaotic_at_the_rate_at_which_two_of_its_motions_part():
     (Benettin's method)."""
     from scipy.integrate import solve_ivp
 
-    def rate(_, x):
-        w, g = x[:3], x[3:]
-        return np.concatenate([(np.cross(ARM, g) - np.cross(w, D * w)) / D, np.cross(g, w)])
+    rate = with_a_direction(D, arm=ARM)
     near, total, a = 1e-7, [], np.array(WILD)
     b = a + near * np.array([1, -1, 1, 0, 0, 0]) / 3**0.5
     for _ in range(300):

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from stabilab import Body, LiquidCavity, Scene, ViscousDamper, flat_spin, load, motion, when
 from stabilab.answers.dissipation import flat_spin as flat_spins
 from stabilab.show import space
+from tests.oracles.rigid import damped, euler, with_a_direction
 
 CASE = """[body]
 inertia = {D}
@@ -35,10 +36,6 @@ def followed(rates, start, until, below=None):
     return solve_ivp(rates, (0, until), start, method="DOP853", rtol=1e-11, atol=1e-13, events=below)
 
 
-def euler(D, w):
-    return np.cross(D * w, w)
-
-
 # --- From outside
 def test_a_medium_brings_a_body_to_rest_as_an_exponential():
     """torque -c D omega: T = T(0) exp(-2 c t), so that the rates are 1 % after ln(100)/c (by hand)."""
@@ -54,7 +51,7 @@ def test_a_linear_damper_brings_a_body_to_rest_when_scipy_says(seed):
     D, C, w = np.array([3.0, 2.0, 1.5]), rng.uniform(0.01, 0.2, 3), rng.uniform(-1, 1, 3)
     found = motion(case(D.tolist(), w.tolist(), rate_damper={"coefficient": C.tolist()})).ending
     T = lambda w: w @ (D * w) / 2
-    run = followed(lambda t, w: (euler(D, w) - C * w) / D, w, 1e4, lambda t, x: T(x) / T(w) - 1e-4)
+    run = followed(euler(D, damping=C), w, 1e4, lambda t, x: T(x) / T(w) - 1e-4)
     assert found.kind == "rest" and found.time("settles") == pytest.approx(run.t_events[0][0], rel=1e-6)
     assert found.time("settles") <= found.at_the_latest
 
@@ -73,9 +70,7 @@ def end_of(seed):
     D, k, w, g = eddy(seed)
     found = motion(case(D.tolist(), w.tolist(), f"vertical = {g.tolist()}",
                         eddy_currents={"coefficient": k, "field": 1})).ending
-    rates = lambda t, y: np.concatenate([(euler(D, y[:3]) + k * np.cross(np.cross(y[:3], y[3:]), y[3:])) / D,
-                                         np.cross(y[3:], y[:3])])
-    run = solve_ivp(rates, (0, 4000), [*w, *g], method="DOP853", rtol=1e-9, atol=1e-12)
+    run = solve_ivp(with_a_direction(D, eddy=k), (0, 4000), [*w, *g], method="DOP853", rtol=1e-9, atol=1e-12)
     end = run.y[:3, -1]
     axis = int(np.argmax(np.abs(end)))
     if np.delete(np.abs(end), axis).max() > 1e-3 * abs(end[axis]) or found.rates is None:
@@ -96,11 +91,9 @@ def test_eddy_currents_settle_when_scipy_says():
     D, k, w, g = eddy(1)
     found = motion(case(D.tolist(), w.tolist(), f"vertical = {g.tolist()}",
                         eddy_currents={"coefficient": k, "field": 1})).ending
-    rates = lambda t, y: np.concatenate([(euler(D, y[:3]) + k * np.cross(np.cross(y[:3], y[3:]), y[3:])) / D,
-                                         np.cross(y[3:], y[:3])])
     least = ((D * w) @ g) ** 2 / (2 * D.max())
     above = lambda w: w @ (D * w) / 2 - least
-    run = followed(rates, [*w, *g], 1e4, lambda t, y: above(y[:3]) / above(w) - 1e-4)
+    run = followed(with_a_direction(D, eddy=k), [*w, *g], 1e4, lambda t, y: above(y[:3]) / above(w) - 1e-4)
     assert found.time("settles") == pytest.approx(run.t_events[0][0], rel=1e-5)
 
 
@@ -110,7 +103,7 @@ def test_a_torque_against_a_strong_damper_ends_at_the_one_equilibrium():
     w = np.array([0.5, -0.3, 0.2])
     found = motion(case(D.tolist(), w.tolist(), rate_damper={"coefficient": C.tolist()},
                         constant_torque={"torque": M.tolist()})).ending
-    rates = lambda t, w: (euler(D, w) - C * w + M) / D
+    rates = euler(D, torque=M, damping=C)
     end = followed(rates, w, 60).y[:, -1]
     far = lambda x: (x - end) @ (D * (x - end))
     run = followed(rates, w, 60, lambda t, x: far(x) / far(w) - 1e-4)
@@ -124,11 +117,7 @@ def test_a_dual_spin_craft_settles_where_scipy_does():
     D, k, c, l, w = np.array([3.0, 2.0, 1.5]), 0.1, 0.3, np.array([0.0, 0.0, 2.0]), np.array([0.1, 0.05, 0.5])
     found = motion(case(D.tolist(), w.tolist(), viscous_damper={"inertia": k, "coefficient": c},
                         gyrostat={"momentum": l.tolist()})).ending
-
-    def rates(t, y):
-        w, s = y[:3], y[3:]
-        turn = (np.cross(D * w + l, w) + c * s) / (D - k)
-        return np.concatenate([turn, -c * s / k - np.cross(w, s) - turn])
+    rates = damped(D, k, c, l)
     # H is along axis 3 in the end (the moment there is over (3 - 1.5) w); 5 deg from it E is least where its
     # component across is along axis 1, of the largest moment
     H = np.linalg.norm(D * w + l)
@@ -152,11 +141,7 @@ def test_a_spinner_about_its_major_axis_is_no_flat_spin(order, tmp_path, stabila
     D, w = np.array([1000.0, 1500.0, 2000.0]), np.array([0.3, 0.0, 1.5])
     D, w, k, c = D[list(order)], w[list(order)], 18.0, 30.0
     found = motion(case(D.tolist(), w.tolist(), viscous_damper={"inertia": k, "coefficient": c})).ending
-
-    def rates(t, y):
-        w, s = y[:3], y[3:]
-        turn = (euler(D, w) + c * s) / (D - k)
-        return np.concatenate([turn, -c * s / k - np.cross(w, s) - turn])
+    rates = damped(D, k, c)
 
     def angle(y):  # of the polhode, from the major axis: sin^2 = (2T/H^2 - 1/D1)/(1/D2 - 1/D1)
         w, s = y[:3], y[3:]
@@ -281,12 +266,7 @@ def test_a_limit_beyond_the_steps_of_a_first_run_is_followed_to_the_end(monkeypa
     from stabilab.answers import passage, time_to
     one = case((2000, 1500, 1000), (0.1224, 0, 2.99), viscous_damper={"inertia": 18, "coefficient": 30})
     D, k, c = np.array([2000.0, 1500, 1000]), 18.0, 30.0
-
-    def rates(t, y):
-        w, s = y[:3], y[3:]
-        turn = (euler(D, w) + c * s) / (D - k)
-        return np.concatenate([turn, -c * s / k - np.cross(w, s) - turn])
-    run = followed(rates, [0.1224, 0, 2.99, 0, 0, 0], 1200, lambda t, y: 1.4 - abs(y[0]))
+    run = followed(damped(D, k, c), [0.1224, 0, 2.99, 0, 0, 0], 1200, lambda t, y: 1.4 - abs(y[0]))
     monkeypatch.setattr(time_to, "by_run", lambda scene, state, limit, last: passage.by_run(
         scene, state, limit, last, 1000))
     found = when(one, component="x = 1.4 rad/s")

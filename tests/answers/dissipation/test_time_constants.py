@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 
 import stabilab as package
+from tests.oracles.rigid import damped, euler, with_a_direction
 from tests.shared import CASES
 
 
@@ -26,9 +27,7 @@ def test_a_spinner_across_a_field_slows_with_its_moment_over_k_b_squared():
                   vertical=[1, 0, 0])
     assert [(item.axis, item.time) for item in end.constants] == [
         (3, pytest.approx(4 / 0.02)), (2, pytest.approx(3 / 0.02)), (1, pytest.approx(2 / 0.02))]
-    run = solve_ivp(lambda t, y: [*((np.cross(np.array([2, 3, 4]) * y[:3], y[:3])
-                                     + 0.02 * np.cross(np.cross(y[:3], y[3:]), y[3:])) / [2, 3, 4]),
-                                  *np.cross(y[3:], y[:3])], (0, 200), [0, 0, 1, 1, 0, 0], rtol=1e-10,
+    run = solve_ivp(with_a_direction([2, 3, 4], eddy=0.02), (0, 200), [0, 0, 1, 1, 0, 0], rtol=1e-10,
                     atol=1e-12)
     assert run.y[2, -1] == pytest.approx(math.exp(-1), rel=1e-8)
 
@@ -60,15 +59,10 @@ def test_the_longest_is_the_slope_of_a_run_near_its_end(seed):
     rng = np.random.default_rng([3, seed])
     D, k, C = np.sort(rng.uniform(4, 6, 3))[::-1], 0.5, 0.5
     w = np.array([1.5, *rng.normal(size=2) * 0.01])
-
-    def rates(t, y):
-        omega, sigma = y[:3], y[3:]
-        turn = (np.cross(D * omega + k * sigma, omega) + C * sigma + k * np.cross(omega, sigma)) / (D - k)
-        return [*turn, *(-C * sigma / k - np.cross(omega, sigma) - turn)]
     end = _ending(D.tolist(), w.tolist(), {"viscous_damper": {"inertia": k, "coefficient": C}})
     tau = end.constants[0].time
     assert end.constants[0].turns > 0  # it nutates
-    run = solve_ivp(rates, (0, 6 * tau), [*w, 0, 0, 0], method="DOP853", rtol=1e-11, atol=1e-15,
+    run = solve_ivp(damped(D, k, C), (0, 6 * tau), [*w, 0, 0, 0], method="DOP853", rtol=1e-11, atol=1e-15,
                     t_eval=np.linspace(tau, 6 * tau, 4000))
     H = D[:, None] * run.y[:3] + k * run.y[3:]
     # what takes the part across the spin from each time to one that is a share of tau later, by least squares:
@@ -86,7 +80,7 @@ def test_they_are_those_of_differences_of_the_equations():
     turn = np.array([[float(v) for v in axis] for axis in R])
     M = turn @ [1e-7, 0, 0]
     rates = lambda w: (np.cross(D * w, w) + M - 2e-5 * w) / D
-    at = solve_ivp(lambda t, w: rates(w), (0, 1e5), case.state, method="DOP853", rtol=1e-10,
+    at = solve_ivp(euler(D, torque=M, damping=2e-5), (0, 1e5), case.state, method="DOP853", rtol=1e-10,
                    atol=1e-14).y[:, -1]
     steps = 1e-6 * np.eye(3)
     values = np.linalg.eigvals(np.array([(rates(at + h) - rates(at - h)) / 2e-6 for h in steps]).T)

@@ -16,6 +16,7 @@ from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.viscous_damper import ViscousDamper
 from stabilab.unreduced.slowest import below_by, least_rate
+from tests.oracles.rigid import damped, euler, with_a_direction
 
 END = 60.0
 DAMPED = {"body": {"inertia": ["0.0022", "0.0020", "0.0018"]}, "effects": {"rate_damper": {"coefficient": 5e-7}},
@@ -34,10 +35,9 @@ def _run(rates, start, limit=None, end=END):
 
 @pytest.mark.parametrize("limit, hours", [("5 deg/s", 1.8144), ("1 deg/s", 3.7501)])
 def test_a_detumbling_satellite_is_slow_when_its_event_run_is(limit, hours):
-    D = np.array([0.0022, 0.0020, 0.0018])
     found = package.load(DAMPED).when(below=limit)
     rate = math.radians(float(limit.split()[0]))
-    time, _ = _run(lambda t, y: (np.cross(D * y, y) - 5e-7 * y) / D, np.radians([20, 10, -5]), rate, 20000)
+    time, _ = _run(euler((0.0022, 0.0020, 0.0018), damping=5e-7), np.radians([20, 10, -5]), rate, 20000)
     assert found.level == "run" and found.low <= time * (1 + 1e-9) and found.high >= time * (1 - 1e-9)
     assert abs(found.high / 3600 - hours) < 1e-4  # SciPy, four decimals
 
@@ -56,8 +56,7 @@ def _random(n):
     effects |= {"rate_damper": {"coefficient": damper}} if damper else {}
     case = package.load({"body": {"inertia": D.tolist()}, "motion": {"angular_velocity": w.tolist()},
                           "effects": effects})
-    rates = lambda t, y: (torque - damper * y + np.cross(D * y + wheel, y)) / D
-    return case, rates, w, float(np.linalg.norm(w) * rng.uniform(0.4, 0.99))
+    return case, euler(D, wheel, torque, damper), w, float(np.linalg.norm(w) * rng.uniform(0.4, 0.99))
 
 
 # of kind 3, off the axes, a spin-up is followed for seconds
@@ -132,21 +131,9 @@ def test_what_a_law_keeps_it_above_is_below_the_least_of_a_run(seed):
     g /= np.linalg.norm(g)
     body = Body(D.tolist())
     centre, k, C = rng.normal(size=3) * 0.3, 1.0, 0.4
-
-    def top(t, y):
-        return [*((np.cross(D * y[:3], y[:3]) + np.cross(centre, y[3:])) / D), *np.cross(y[3:], y[:3])]
-
-    def eddy(t, y):
-        torque = 0.7 * np.cross(np.cross(y[:3], y[3:]), y[3:])
-        return [*((np.cross(D * y[:3], y[:3]) + torque) / D), *np.cross(y[3:], y[:3])]
-
-    def damped(t, y):  # H' = H x omega with H = D omega + k sigma, k (omega' + sigma') = -C sigma - k omega x sigma
-        omega, sigma = y[:3], y[3:]
-        turn = (np.cross(D * omega + k * sigma, omega) + C * sigma + k * np.cross(omega, sigma)) / (D - k)
-        return [*turn, *(-C * sigma / k - np.cross(omega, sigma) - turn)]
-    rows = [(Scene(body, Gravity(1, centre.tolist())), {"omega": w, "gamma": g}, top),
-            (Scene(body, EddyCurrents("0.7", 1)), {"omega": w, "gamma": g}, eddy),
-            (Scene(body, ViscousDamper(k, C)), {"omega": w, "damper": 0.1 * w[::-1]}, damped)]
+    rows = [(Scene(body, Gravity(1, centre.tolist())), {"omega": w, "gamma": g}, with_a_direction(D, arm=centre)),
+            (Scene(body, EddyCurrents("0.7", 1)), {"omega": w, "gamma": g}, with_a_direction(D, eddy=0.7)),
+            (Scene(body, ViscousDamper(k, C)), {"omega": w, "damper": 0.1 * w[::-1]}, damped(D, k, C))]
     for scene, blocks, rates in rows:
         start = np.concatenate([*blocks.values()])
         least = least_rate(scene, {name: tuple(map(float, v)) for name, v in blocks.items()})

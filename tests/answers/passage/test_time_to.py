@@ -13,6 +13,7 @@ from stabilab.errors import InputError
 from stabilab.integrate import events as event_run
 from stabilab.physics.coefficients import to_scaled
 from tests.oracles.first_crossing import REAL, first_crossing
+from tests.oracles.rigid import euler, with_a_direction
 
 FAR = 60.0  # how far brute force looks, in natural units
 
@@ -251,15 +252,10 @@ def test_a_torque_between_equal_moments_that_spins_up_is_followed():
     scene = stabilab.Scene(stabilab.Body((5, 9, 9)), stabilab.Gyrostat((0, 1, 0)),
                            stabilab.ConstantTorque((0, -1, 1)))
     found = stabilab.time_to(scene, [0.3, 1.2, 0], rate=2)
-    run = solve_ivp(lambda t, w: euler((5, 9, 9), (0, 1, 0), (0, -1, 1), w), (0, found.high * 1.01),
+    run = solve_ivp(euler((5, 9, 9), (0, 1, 0), (0, -1, 1)), (0, found.high * 1.01),
                     [0.3, 1.2, 0], "DOP853", rtol=1e-12, atol=1e-14,
                     dense_output=True)
     assert found.low < np.inf and np.linalg.norm(run.sol(found.low)) == pytest.approx(2, rel=1e-8)
-
-
-def euler(D, l, M, w):
-    h = np.multiply(D, w) + l
-    return (np.asarray(M) - np.cross(w, h)) / D
 
 
 def test_a_way_too_long_for_integers_is_enclosed_by_compiled_steps():
@@ -286,13 +282,12 @@ def test_three_components_are_enclosed_by_compiled_steps_too():
 def by_dop853(scene, state, limit, end):
     """The first time by `end` at which sum c_i w_i^2 + k . n, n = k at the start, is the limit's value."""
     (c, k, value), D, l, M = limit, scene.body.inertia, scene.vector("gyrostat"), scene.vector("constant_torque")
-    l, M = np.array(l, float), np.array(M, float)
     sign = -1 if np.any(k) else 1  # a tilt's cosine falls
 
     def passed(_, y):
         return sign * float(np.dot(c, np.square(y[:3])) + np.dot(k, y[3:]) - value)
     passed.terminal, passed.direction = True, 1
-    run = solve_ivp(lambda _, y: [*euler(D, l, M, y[:3]), *np.cross(y[3:], y[:3])], (0, end), [*state, *k],
+    run = solve_ivp(with_a_direction(D, l, M), (0, end), [*state, *k],
                     "DOP853", events=passed, rtol=1e-12, atol=1e-12, max_step=0.2 / max(1, np.abs(state).max()))
     return run.t_events[0][0] if run.t_events[0].size else math.inf
 

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tests.oracles.rigid import tensor
+
 UNITS = {"N": 1.0, "mN": 1e-3, "lbf": 4.4482216152605, "m": 1.0, "cm": 1e-2, "mm": 1e-3, "deg/s": np.pi / 180,
          "rpm": np.pi / 30, "rad/s": 1.0, "kg m^2": 1.0,
          "N m s": 1.0, "kg": 1.0, "min": 60.0}
@@ -64,18 +66,13 @@ class Craft:
 
     def run(self, t_end, torque=None, l=None, limit=True, rtol=1e-13):
         """(time of the limit or None, last state, largest |omega|)."""
-        M, l, inverse = (self.torque() if torque is None else torque, self.l if l is None else l,
-                         np.linalg.inv(self.J))
-
-        def rate(t, w):
-            (x, y, z), (a, b, c) = w, self.J @ w + l
-            return inverse @ (M - (y * c - z * b, z * a - x * c, x * b - y * a))
+        M, l = self.torque() if torque is None else torque, self.l if l is None else l
 
         def over(t, w):
             return max(np.abs(w) - self.limit) if np.ndim(self.limit) else np.linalg.norm(w) - self.limit
         over.terminal = True
         events = [over] if limit and self.limit is not None else None
-        run = solve_ivp(rate, (0, t_end), self.start, "DOP853", rtol=rtol, atol=1e-3 * rtol, events=events)
+        run = solve_ivp(tensor(self.J, l, M), (0, t_end), self.start, "DOP853", rtol=rtol, atol=1e-3 * rtol, events=events)
         t = float(run.t_events[0][0]) if events and len(run.t_events[0]) else None
         return t, run.y[:, -1], float(np.linalg.norm(run.y, axis=0).max())
 
@@ -95,11 +92,8 @@ class Craft:
         a = M / np.linalg.norm(M)
         if abs(l @ a) > 1e-12 * np.linalg.norm(l):
             return "spin-up"
-        turn, inverse = self.turn(a), np.linalg.inv(self.J)
-
-        def rate(t, y):
-            w = y[:3]
-            return np.append(inverse @ (M - np.cross(w, self.J @ w + l)), w @ a)
+        turn, rates = self.turn(a), tensor(self.J, l, M)
+        rate = lambda t, y: [*rates(t, y[:3]), y[:3] @ a]
         back, again, round_ = (lambda t, y: y[:3] @ a), (lambda t, y: y[:3] @ a), (lambda t, y: y[3] - turn)
         back.direction, again.direction, round_.terminal = -1, 1, True
         again.terminal = 2  # one whole swing, whichever way it began

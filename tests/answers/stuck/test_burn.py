@@ -14,6 +14,7 @@ from stabilab.answers.stuck.burn import largest_after
 from stabilab.case.sections import Burn, segments
 from stabilab.errors import InputError
 from tests.oracles import model, taylor
+from tests.oracles.rigid import euler
 from tests.shared import later
 
 CASE = """body.inertia = {inertia}
@@ -37,20 +38,15 @@ def case_of(folder, inertia, rates, thrusters, span=100.0, more=""):
     return path
 
 
-def euler(D, torque, lam=(0.0, 0.0, 0.0)):
-    D, torque, lam = map(np.array, (D, torque, lam))
-    return lambda t, w: (torque - np.cross(w, D * w + lam)) / D
-
-
 def run(D, torque, w, length, lam=(0.0, 0.0, 0.0), dense=False):
-    found = solve_ivp(euler(D, torque, lam), (0, length), w, method="DOP853", rtol=1e-13, atol=1e-15,
+    found = solve_ivp(euler(D, lam, torque), (0, length), w, method="DOP853", rtol=1e-13, atol=1e-15,
                       dense_output=dense)
     return found if dense else found.y[:, -1]
 
 
 def largest(D, w, lam=(0.0, 0.0, 0.0)):
     """|omega| at the most of the free motion from w, by sampling a long run: some periods."""
-    found = solve_ivp(euler(D, (0, 0, 0), lam), (0, 150 / np.linalg.norm(w)), w, method="DOP853", rtol=1e-9,
+    found = solve_ivp(euler(D, lam), (0, 150 / np.linalg.norm(w)), w, method="DOP853", rtol=1e-9,
                       atol=1e-13, dense_output=True)  # sampled to 2e-6
     return np.linalg.norm(found.sol(np.linspace(0, found.t[-1], 15_000)), axis=0).max()
 

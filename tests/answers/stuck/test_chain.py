@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 import stabilab
 from stabilab.errors import InputError
 from tests.answers.stuck.test_burn import case_of
+from tests.oracles.rigid import euler, in_space
 
 D, START, LAM = np.array([3.0, 2.0, 1.5]), [0.1, -0.2, 0.3], np.array([0.3, -0.1, 0.2])
 ONE, TWO = np.array([0.05, -0.06, 0.04]), np.array([0.03, -0.08, 0.15])
@@ -33,11 +34,7 @@ def run_of_pieces():
     """(begin, length, solution of rates and matrix) of each piece."""
     y, begin, found = np.concatenate([START, np.eye(3).ravel()]), 0.0, []
     for length, torque in PIECES:
-        def rate(_, y, torque=torque):
-            w, C = y[:3], y[3:].reshape(3, 3)
-            cross = [[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]
-            return np.concatenate([(torque - np.cross(w, D * w + LAM)) / D, (C @ cross).ravel()])
-        run = solve_ivp(rate, (0, length), y, method="DOP853", rtol=1e-13, atol=1e-15, dense_output=True)
+        run = solve_ivp(in_space(euler(D, LAM, torque)), (0, length), y, method="DOP853", rtol=1e-13, atol=1e-15, dense_output=True)
         found.append((begin, length, run.sol))
         y, begin = run.y[:, -1], begin + length
     return found
@@ -141,7 +138,7 @@ def test_a_limit_that_is_reached_after_too_many_turns_to_enclose_is_found_along_
     for n in range(36):  # from switch to switch
         fires = "duty" not in keys or n % 2 == 0
         length = (9 if fires else 1) if "duty" in keys else 5
-        run = solve_ivp(lambda _, w, fires=fires: (torque * fires - np.cross(w, D * w)) / D, (0, length), w,
+        run = solve_ivp(euler(D, torque=torque * fires), (0, length), w,
                         method="DOP853", rtol=1e-13, atol=1e-15, events=reached)
         if run.t_events[0].size:
             break

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab.errors import InputError
+from tests.oracles.rigid import euler
 
 CASE = """[body]
 inertia = [120, 90, 50]
@@ -47,7 +48,7 @@ def followed(inertia, start, pieces):
     """The rates at the end, Euler's equations by DOP853 from switch to switch."""
     state = start
     for begin, end, torque in pieces:
-        rates = lambda t, w, torque=torque: (torque - np.cross(w, inertia * w)) / inertia
+        rates = euler(inertia, torque=torque)
         state = solve_ivp(rates, (begin, end), state, "DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
     return state
 

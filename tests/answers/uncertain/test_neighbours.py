@@ -11,6 +11,7 @@ from stabilab.answers.uncertain.boxes import box_of
 from stabilab.answers.uncertain.fate import uncertain
 from stabilab.case.read import load
 from tests.answers.uncertain.test_nested_boxes import written
+from tests.oracles.rigid import euler
 from tests.shared import in_one_line
 
 NONE = [0.0, 0.0, 0.0]
@@ -30,7 +31,7 @@ def of(values):
 def departs(values, until):
     """The largest angle, rad, between a motion and its start."""
     D, h, M, w = of(values)
-    run = solve_ivp(lambda t, x: (np.cross(D * x + h, x) + M) / D, (0, until), w, method="DOP853", rtol=1e-9,
+    run = solve_ivp(euler(D, h, M), (0, until), w, method="DOP853", rtol=1e-9,
                     atol=1e-12, t_eval=np.linspace(0, until, 3000))
     cosine = run.y.T @ w / np.linalg.norm(run.y, axis=0) / np.linalg.norm(w)
     return float(np.arccos(np.clip(cosine, -1, 1)).max())

@@ -11,6 +11,7 @@ from stabilab.answers.uncertain.fate import look_at, uncertain
 from stabilab.answers.uncertain.result import CORNERS, corners, worst
 from stabilab.case.read import load
 from tests.answers.uncertain.test_verdicts import numbers_at, walls_ahead
+from tests.oracles.rigid import euler
 from tests.shared import later
 
 TEXT = """[body]
@@ -41,8 +42,8 @@ def spins_up(values, times=24):
     def reached(t, x):
         return abs(x[k]) - far
     reached.terminal = True
-    run = solve_ivp(lambda t, x: (np.cross(D * x + h, x) + M) / D, (0, 20 * far * D[k] / abs(M[k])), w,
-                    method="DOP853", rtol=1e-11, atol=1e-13, events=reached)
+    run = solve_ivp(euler(D, h, M), (0, 20 * far * D[k] / abs(M[k])), w, method="DOP853", rtol=1e-11, atol=1e-13,
+                    events=reached)
     return run.status == 1
 
 
@@ -95,7 +96,7 @@ def nested(seed):
     return rows, inner, outer
 
 
-@pytest.mark.parametrize("seed", [0, 5, 6, *later((1, 2, 3, 4, *range(7, 80)))])
+@pytest.mark.parametrize("seed", [0, 5, 6, *later((1, 2, 3, 4, *range(7, 48)))])
 def test_a_box_around_another_is_never_the_safer_one(case_file, seed):
     rows, *boxes = nested(seed)
     inner, outer = (uncertain(load(case_file(written(rows, half))), ("fate",)).fate for half in boxes)

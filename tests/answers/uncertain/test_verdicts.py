@@ -14,6 +14,7 @@ from stabilab.case.read import load
 from stabilab.errors import CaseError
 from stabilab.numbers.affine import Affine, root
 from stabilab.show.text import classification as shown
+from tests.oracles.rigid import euler
 from tests.shared import CASES
 
 BODY = """
@@ -225,7 +226,7 @@ def test_moments_that_may_be_equal_are_no_ground_for_a_proof(tmp_path):
     for witness in over.witnesses:  # by DOP853: a spin-up passes every bound in the end, as omega' -> M/D
         D, h, M, w = (np.array([float(v) for v in witness.values[name]])
                       for name in ("inertia", "momentum", "torque", "state"))
-        run = solve_ivp(lambda t, x, D=D, h=h, M=M: (np.cross(D * x + h, x) + M) / D, (0, 300), w,
+        run = solve_ivp(euler(D, h, M), (0, 300), w,
                         method="DOP853", rtol=1e-9, atol=1e-10)
         assert (np.abs(run.y[0]).max() > 0.5 * 300 * M[0] / D[0]) == witness.verdict.startswith("spin-up")
 

@@ -16,6 +16,7 @@ from stabilab.orbit.result import Fate
 from stabilab.show.maps import atlas as atlas_files
 from stabilab.show.maps import atlas as atlas_words
 from stabilab.show.units import units_of
+from tests.oracles.rigid import euler
 from tests.shared import CASES
 
 BODY = """[body]
@@ -67,7 +68,7 @@ def test_brute_force_sees_the_axis_of_a_cell(spinning):
     D, wheel = np.array([3.1, 2.3, 1.45]), np.array([0.0, 0.2, 0.0])
     for n in (2, 19):
         torque = spinning.directions[n]
-        run = solve_ivp(lambda t, w: (torque - np.cross(w, D * w + wheel)) / D, (0, 60), (0.3, -0.2, 0.5),
+        run = solve_ivp(euler(D, wheel, torque), (0, 60), (0.3, -0.2, 0.5),
                         "DOP853", rtol=1e-8, atol=1e-8)
         last = run.y[:, -1]
         axis = int(np.abs(last).argmax())

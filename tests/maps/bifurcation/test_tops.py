@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import InputError, bifurcation, load
+from tests.oracles.rigid import with_a_direction
 from tests.shared import CASES
 
 TOY = CASES / "toy-top.toml"
@@ -102,10 +103,7 @@ def test_disturbed_on_either_side_of_the_critical_spin_it_stays_or_falls():
     """SciPy: the lean of a top let go at 0.01 rad, a hundredth beside the critical spin."""
     critical = 2 / 1.8
     for times, stays in ((1.02, True), (0.98, False)):
-        def rates(t, y):
-            w, g = y[:3], y[3:]
-            return [*((np.cross([1, 1, 1.8] * w, w) + np.cross([0, 0, 1], g)) / [1, 1, 1.8]), *np.cross(g, w)]
-        run = solve_ivp(rates, (0, 60), [0, 0, times * critical, math.sin(0.01), 0, -math.cos(0.01)],
+        run = solve_ivp(with_a_direction([1, 1, 1.8], arm=[0, 0, 1]), (0, 60), [0, 0, times * critical, math.sin(0.01), 0, -math.cos(0.01)],
                         rtol=1e-9, atol=1e-11)
         assert (np.arccos(-run.y[5]).max() < 0.1) == stays
         found = bifurcation(_top(), {"angular_velocity[3]": "0:4"})
