@@ -19,6 +19,7 @@ from stabilab import cli
 from stabilab.commands import one_case
 from stabilab.errors import CaseError
 from stabilab.show.command_groups import GROUPS
+from tests.recorded.answers import run
 
 ROOT = Path(__file__).parents[1]
 CASES = sorted((ROOT / "cases").glob("*.toml"))
@@ -32,16 +33,13 @@ def strict_json(text):
 
 
 @functools.cache
-def classified(fifth):
-    """The JSON objects of every fifth case, from one run of the program."""
-    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", *map(str, CASES[fifth::5]), "--json"],
-                         capture_output=True,
-                         text=True, cwd=ROOT)
-    assert run.returncode == 0 and not run.stderr, run.stderr
-    return {answer["case"]: answer for answer in strict_json(run.stdout)}
+def classified(path):
+    """The JSON objects of a case file."""
+    said = run("classify", str(path), "--json")
+    assert said["exit"] == 0 and not said["message"], said["message"]
+    return {answer["case"]: answer for answer in said["answer"]}
 
 
-LATER = pytest.mark.slow  # from the second fifth on
 MINOR_SWEPT = """[body]
 inertia = [3, 2, 1]
 [effects.gyrostat]
@@ -51,17 +49,16 @@ torque = [0, 0, 0.1]
 [sweep]
 "effects.gyrostat.momentum" = [[0.5, 0, 0], [0.8, 0, 0], [0, 0, 0]]
 """
-each_case = pytest.mark.parametrize("fifth, path",
-                                    [pytest.param(n % 5, path, id=path.stem, marks=[LATER] * (n % 5 > 0))
-                                     for n, path in enumerate(CASES)])
+each_case = pytest.mark.parametrize("path", [pytest.param(path, id=path.stem, marks=[pytest.mark.slow] * (n % 10 > 0))
+                                             for n, path in enumerate(CASES)])
 
 
 @each_case
-def test_case_meets_what_it_expects(fifth, path):
+def test_case_meets_what_it_expects(path):
     # The expected facts are written in the case files with their proofs; they come from no run of this
     # program.
     from stabilab.case.read import load, load_all
-    expect, answer = load(path).expect, classified(fifth)[load_all(path)[0].name]
+    expect, answer = load(path).expect, classified(path)[load_all(path)[0].name]
     equilibria, motion = answer["equilibria"], answer["motion"]
     assert equilibria["kind"] == expect.get("kind", equilibria["kind"])
     if "points" in expect:
@@ -78,11 +75,11 @@ def test_case_meets_what_it_expects(fifth, path):
 
 
 @each_case
-def test_listed_equilibria_are_at_rest(fifth, path):
+def test_listed_equilibria_are_at_rest(path):
     # Euler's equations written out here, from the numbers of the case alone.
     from stabilab.case.read import load_all
     for case in load_all(path):
-        found = classified(fifth)[case.name]["equilibria"]
+        found = classified(path)[case.name]["equilibria"]
         points = [p["at"] for p in found["points"]] + [s["at"] for c in found["curves"] for s in c["samples"]]
         for at in points:
             rate, size = _rate_and_size(case.scene, np.array(at))

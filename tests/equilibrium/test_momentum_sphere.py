@@ -26,13 +26,17 @@ def searched(D, wheel, size, points=900):
     z, turn = 1 - 2 * n / points, np.pi * (1 + 5 ** 0.5) * n
     H = size * np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], axis=1)
     m = (H * (H - l) / D).sum(axis=1) / size ** 2
-    J = np.zeros((points, 4, 4))
+    x, moving = np.column_stack([H, m]), n >= 0
     for _ in range(60):
+        H, m = x[moving, :3], x[moving, 3]
+        J = np.zeros((len(m), 4, 4))
         J[:, :3, :3] = np.diag(1 / D) - m[:, None, None] * np.eye(3)
         J[:, :3, 3], J[:, 3, :3] = -H, H
         f = np.concatenate([(H - l) / D - m[:, None] * H, ((H * H).sum(axis=1)[:, None] - size ** 2) / 2], axis=1)
         step = (np.linalg.pinv(J, rcond=1e-13) @ f[..., None])[..., 0]
-        H, m = H - step[:, :3], m - step[:, 3]
+        x[moving] -= step
+        moving[moving] = np.linalg.norm(step, axis=1) > 1e-14 * (size + 1)  # the others have converged
+    H, m = x[:, :3], x[:, 3]
     rest = np.linalg.norm((H - l) / D - m[:, None] * H, axis=1) + abs(np.linalg.norm(H, axis=1) - size)
     found = []
     for row in np.column_stack([H, m])[rest < 1e-11 * (size + 1)]:

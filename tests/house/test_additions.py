@@ -8,12 +8,12 @@ import shutil
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab.physics.effects import REGISTRY, effect_class
 from tests.house.rooms import PACKAGE
+from tests.oracles.rigid import euler
 from tests.shared import CASES
 
 KIND = '''"""A sphere without wheel and torque: whatever its rates are, they stay."""
@@ -220,11 +220,15 @@ def told_by(folder, program=ASKED, *arguments):
     return json.loads(done.stdout)
 
 
+def copied(folder):
+    """The folder, with a copy of the package; what Python compiled of it serves the copy as well."""
+    shutil.copytree(PACKAGE, folder / "stabilab", ignore=shutil.ignore_patterns("*.nbi", "*.nbc"))
+    return folder
+
+
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("copy")
-    shutil.copytree(PACKAGE, folder / "stabilab", ignore=shutil.ignore_patterns("__pycache__"))
-    return folder
+    return copied(tmp_path_factory.mktemp("copy"))
 
 
 def test_a_seventh_kind_and_a_new_question_are_one_file_and_one_row_each(copy):
@@ -245,19 +249,18 @@ def test_a_seventh_kind_and_a_new_question_are_one_file_and_one_row_each(copy):
 
 def test_a_new_effect_with_a_fate_is_one_file_and_one_row(tmp_path):
     """T' = -k |omega|^2 < 0 by hand: it comes to rest. The rates after 10 s: SciPy, from equations written here."""
-    shutil.copytree(PACKAGE, tmp_path / "stabilab", ignore=shutil.ignore_patterns("__pycache__"))
+    copied(tmp_path)
     added(tmp_path / "stabilab", "physics/effects/brake.py", EFFECT, EFFECT_ROW)
     told = told_by(tmp_path, BRAKED)
     assert (told["fate"], told["ending"]) == ("bounded", "rest") and "the brake takes energy away" in told["why"]
-    D = np.array([12.0, 9.0, 5.0])
-    run = solve_ivp(lambda t, w: (np.cross(D * w, w) - 0.3 * w) / D, (0, 10), (0.1, 0.05, 0.02), "DOP853",
+    run = solve_ivp(euler((12, 9, 5), damping=0.3), (0, 10), (0.1, 0.05, 0.02), "DOP853",
                     rtol=1e-12, atol=1e-14)
     assert told["omega"] == pytest.approx(run.y[:, -1].tolist(), rel=1e-9)
     assert "brake, not drawn" in told["legend"]
 
 
 def test_a_new_column_of_a_sweep_is_one_row_and_a_new_kind_of_picture_one_file_and_one_row(tmp_path):
-    shutil.copytree(PACKAGE, tmp_path / "stabilab", ignore=shutil.ignore_patterns("__pycache__"))
+    copied(tmp_path)
     added(tmp_path / "stabilab", "show/plot/energy.py", PICTURE, PICTURE_ROW)
     added(tmp_path / "stabilab", "show/plot/energy.py", PICTURE, COLUMN_ROW)
     told = told_by(tmp_path, SEEN, str(CASES / "minor-axis-100.toml"))

@@ -74,7 +74,7 @@ def test_runs_as_newtons_equations_of_two_bodies_do(place, line, wheel):
 def test_a_mass_beside_the_spin_axis_damps_the_nutation_at_the_rate_of_the_linear_system():
     """On a line along the axis of the spin its spring stays relaxed there (by hand: omega . J' omega vanishes), so that
     the rotation stays; the fit of a run by Newton's equations has the time constant of the linearised system."""
-    scene = Scene(Body((1.2, 1.5, 2), M), DamperMass("0.5", ("0.4", 0, 0), (0, 0, 1), 2, "0.3", M))
+    scene = Scene(Body((1.2, 1.5, 2), M), DamperMass(1, ("0.4", 0, 0), (0, 0, 1), 2, 1, M))
     assert stabilab.motion(load(scene, (0, 0, 1))).fate == Fate.EQUILIBRIUM
     from stabilab.answers.dissipation.time_constants import time_constants
     longest = time_constants(scene, [0, 0, 1, 0, 0])[0].time
@@ -82,7 +82,7 @@ def test_a_mass_beside_the_spin_axis_damps_the_nutation_at_the_rate_of_the_linea
     before, D = D, np.array([1.2, 1.5, 2.0])
     try:
         times = np.linspace(0, 2 * longest, 400)
-        w, *_ = newton(0.5, (0.4, 0, 0), (0, 0, 1), 2.0, 0.3, np.array([1e-3, 0, 1]), 0.0, 0.0, times)
+        w, *_ = newton(1.0, (0.4, 0, 0), (0, 0, 1), 2.0, 1.0, np.array([1e-3, 0, 1]), 0.0, 0.0, times)
     finally:
         D = before
     across = np.log(np.hypot(w[:, 0] * 1.2, w[:, 1] * 1.5))
