@@ -132,7 +132,7 @@ def test_of_a_motion_that_spins_up_there_is_nothing_to_see_and_no_file(stabilab,
     assert "no picture is written: it does not come back" in said and "written: " not in said.replace("is written: ", "")
 
 
-@pytest.mark.parametrize("coefficient", ["1e12", "1"])
+@pytest.mark.parametrize("coefficient", [pytest.param("1e12", marks=pytest.mark.slow), "1"])
 def test_a_motion_too_stiff_to_be_followed_is_stopped_and_undecided(monkeypatch, coefficient):
     """A sphere of 1e-12 kg m^2 in a fluid is at rest in it after 1e-12 s/coefficient; a turn takes 10 s."""
     from stabilab.unreduced import chaos as followed

@@ -71,7 +71,7 @@ def limited(size):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", WRITERS)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name == "precision png")) for name in WRITERS])
 def test_a_disk_that_fills_up_ends_with_2_and_leaves_what_was_there(tmp_path, name):
     target = tmp_path / WRITERS[name][2]
     if name in ONE_FILE:
@@ -89,7 +89,7 @@ def test_a_disk_that_fills_up_ends_with_2_and_leaves_what_was_there(tmp_path, na
     assert written(tmp_path) == before
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name",
                          ["simulate csv", "tables",
                           *(pytest.param(n, marks=pytest.mark.slow)
@@ -238,7 +238,7 @@ def without(module, folder, *arguments):
                           text=True, cwd=folder, env=around)
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("module",
                          [pytest.param(name, marks=pytest.mark.slow) if name.endswith(".") else name
                           for name in LACKING])
@@ -253,7 +253,8 @@ def test_a_package_that_is_missing_is_named_with_what_to_install(tmp_path, modul
 
 
 @pytest.mark.parametrize("module, kinds",
-                         [("pyvista", {"vtp", "glb", "stl", "json"}), ("vtkmodules", {"glb", "stl", "json"})])
+                         [("pyvista", {"vtp", "glb", "stl", "json"}),
+                          pytest.param("vtkmodules", {"glb", "stl", "json"}, marks=pytest.mark.slow)])
 def test_without_a_package_that_draws_the_meshes_are_written_all_the_same(tmp_path, module, kinds):
     assert without(module, tmp_path, "surface", MINOR, "--out", "s").returncode == 4
     assert {p.name for p in (tmp_path / "s").iterdir()} == {f"{MINOR.stem}.{kind}"

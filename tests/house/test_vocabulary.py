@@ -11,6 +11,7 @@ from stabilab import load
 from stabilab.show.explore import serve
 from stabilab.show.explore.pictures import unframed
 from stabilab.show.explore.session import Session
+from tests.house.rooms import PACKAGE, tree_of
 from tests.recorded.answers import ALL, recorded
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -74,7 +75,7 @@ def test_the_answers_about_all_cases_have_none_of_our_own_words(record):
         assert ours("\n".join(texts(said)), SAID) == [], command
 
 
-@pytest.mark.parametrize("case", ["phone", "upper-stage", "wheel-and-thruster"])
+@pytest.mark.parametrize("case", [pytest.param("phone", marks=pytest.mark.slow), "upper-stage", "wheel-and-thruster"])
 def test_what_is_said_of_a_surface_which_is_not_recorded_has_none_either(stabilab, tmp_path, case):
     *_, out, err = stabilab("surface", ROOT / f"cases/{case}.toml", "--out", tmp_path)
     assert ours(out + err, SAID) == []
@@ -87,8 +88,9 @@ def read(page):
     return html.unescape(f"{re.sub(r'<[^>]+>', ' ', page)} {spoken}")
 
 
-@pytest.mark.parametrize("case", ["phone", pytest.param("cubesat-3u", marks=pytest.mark.slow),
-                                  pytest.param("charged-body", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("case", [pytest.param("phone", marks=pytest.mark.slow),
+                                  *(pytest.param(name, marks=[pytest.mark.slow, pytest.mark.long])
+                                    for name in ("cubesat-3u", "charged-body"))])
 def test_the_pages_about_a_case_have_none_of_our_own_words(stabilab, tmp_path, case):
     assert stabilab("report", ROOT / f"cases/{case}.toml", "--out", tmp_path)[0] == 0
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
@@ -124,6 +126,6 @@ NOT_NAMES = set("one found told asked seen way given known made least most near 
 def test_names_in_the_code_are_seldom_words_of_our_own():
     """CONTRIBUTING.md has the table; those that are left are public arguments, fields and keys."""
     names = [getattr(node, {ast.Name: "id", ast.arg: "arg", ast.Attribute: "attr"}.get(type(node), "name")).strip("_").lower()
-             for path in (ROOT / "stabilab").rglob("*.py") for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+             for path in PACKAGE.rglob("*.py") for node in ast.walk(tree_of(path))
              if isinstance(node, (ast.Name, ast.arg, ast.Attribute, ast.FunctionDef, ast.ClassDef))]
     assert sum(name in NOT_NAMES for name in names) < 0.01 * len(names)

@@ -51,8 +51,8 @@ def test_a_hunt_that_is_ended_says_what_it_found(tmp_path, monkeypatch, capsys):
     assert said.startswith("methods: 1 questions") and said.endswith("ended early: nothing found\n")
 
 
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", SEARCHES)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (n % 2 > 0 or name == "unreduced"))
+                                  for n, name in enumerate(SEARCHES)])
 def test_two_ways_to_an_answer_keep_their_promise_on_random_problems(name):
     (function, make), rng, asked = SEARCHES[name], np.random.default_rng(5), 0
     while asked < 4:

@@ -377,7 +377,7 @@ def test_every_picture_of_a_page_has_a_narrow_one_for_telephones(several, alone)
 
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
-@pytest.mark.parametrize("name", ["minor-axis-100", "geostationary-22n"])
+@pytest.mark.parametrize("name", ["minor-axis-100", pytest.param("geostationary-22n", marks=pytest.mark.long)])
 def test_a_case_prints_on_at_most_five_pages_with_its_first_picture_on_the_first(name, tmp_path):
     """Of a page with everything that a page alone has; Chromium sets it on sheets of A4."""
     from tests.browser import Browser

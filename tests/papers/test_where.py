@@ -48,6 +48,7 @@ def folder(tmp_path_factory):
     return out
 
 
+@pytest.mark.slow
 def test_every_item_of_every_paper_leads_to_a_place_that_is_there(folder):
     """But the models of figure 1, where they are not drawn."""
     pages = {file.name: file.read_text(encoding="utf-8") for file in folder.glob("*.html")}

@@ -6,7 +6,7 @@ from . import answers
 from .answers import ALL, ONE_CASE, RELATIVE, SEVERAL, USUAL, differences, now, record, recorded
 
 # The words of these are made from the JSON of the same command, of which the default suite has some: long
-DRAWN = "page", "pictures"  # minutes of all cases
+DRAWN = "page", "pictures", "explorer"  # minutes of all cases
 LONG = {"audit",  # which tests/papers/test_audit.py holds against the equations
         *(name for name in ALL if name.endswith(("-text", "-csv"))), *DRAWN}
 
@@ -41,7 +41,7 @@ def test_quick_command_lines_say_what_is_recorded(name, tmp_path):
 @pytest.mark.slow
 @pytest.mark.parametrize("name, step", [
     *(pytest.param(name, 1, marks=[pytest.mark.long] if name in LONG else []) for name in ALL),
-    *((name, 3) for name in DRAWN)])  # of each third case
+    *((name, 6) for name in DRAWN)])  # of each sixth case
 def test_a_command_answers_as_it_is_recorded(name, step, tmp_path):
     every = recorded(name)
     before = {key: every[key] for key in sorted(every)[::step]}

@@ -60,10 +60,9 @@ def file_of(case_file, J, along, speed=1.0):
     M = np.round(9 * 0.6 * along * (5 / 3)) / 9 if np.count_nonzero(along) > 1 else along
     start = speed * along + np.cross(along, [0.01, 0.02, 0.03])
     rows = [exact(row) for row in J]
-    tensor = "[" + ", ".join(rows) + "]" if np.count_nonzero(J - np.diag(np.diag(J))) else exact(np.diag(J))
-    path = case_file(TEXT.format(J=tensor, M=exact(M), start=list(map(float, start))), "own")
-    back = np.linalg.inv(J)
-    run = solve_ivp(lambda t, w: back @ (M + np.cross(J @ w, w)), (0, 150), start, "DOP853", rtol=1e-8,
+    inertia = "[" + ", ".join(rows) + "]" if np.count_nonzero(J - np.diag(np.diag(J))) else exact(np.diag(J))
+    path = case_file(TEXT.format(J=inertia, M=exact(M), start=list(map(float, start))), "own")
+    run = solve_ivp(tensor(J, torque=M), (0, 150), start, "DOP853", rtol=1e-8,
                     atol=1e-10)
     return path, run.y[:, -1] / np.linalg.norm(run.y[:, -1])
 

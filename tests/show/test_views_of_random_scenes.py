@@ -32,7 +32,7 @@ OPTIONS = {"when": ("--rate", "2000 deg/s"), "chaos": ("--until", "5"), "simulat
 WHY = ("fate", "extremes", "period", "classify", "stuck")
 NO_TEXT = {"reference", "verify"}  # whose text is its CSV; a certificate's
 QUICK = ("fate", "classify")
-SLOW = ("precision",)  # half a minute each: of one scene
+SLOW = ("precision",)  # half a minute each: of one scene, in the long tests
 FEW, LONG = 12, [pytest.mark.slow, pytest.mark.long]  # scenes of the slow tests; the others take a quarter hour
 SCENES = [f"{kind}-{n:02}" for n, kind in zip(range(MANY), [*KINDS] * MANY)]
 TEMPLATES = {sentence.code: sentence.template for _, sentence in sentences()}
@@ -109,8 +109,9 @@ def rows():
     for command, tabled in commands():
         for name in SCENES:
             if command not in SLOW or name == SCENES[0]:
-                quick = command in QUICK and name in SCENES[:len(KINDS)]
-                marks = [] if quick else [pytest.mark.slow] if name in SCENES[:FEW] else LONG
+                place = SCENES.index(name)
+                quick = place < len(KINDS) and command == QUICK[place % len(QUICK)]
+                marks = [] if quick else [pytest.mark.slow] if name in SCENES[:FEW] and command not in SLOW else LONG
                 yield pytest.param(command, tabled, name, marks=marks)
 
 
