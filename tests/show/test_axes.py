@@ -16,6 +16,7 @@ from stabilab.show.axes import PLAIN, axes_of
 from stabilab.show.data import as_json
 from stabilab.show.text import stuck as shown
 from stabilab.show.units import units_of
+from tests.oracles.rigid import tensor
 from tests.shared import in_one_line
 
 MOMENTS = (100, 90, 40)
