@@ -30,7 +30,7 @@ def beside(path: Path) -> Path:
 
 def save_both(figure: Figure, path: Path) -> tuple[Path, Path]:
     """Write a picture, and beside it the narrow one; the paths of both."""
-    wide = style.save(figure, path)
+    wide = style.save(figure, path, colours=style.PAGE)
     return wide, save(figure, beside(path))
 
 

@@ -166,7 +166,7 @@ def headline(result: Precision) -> str:
 def write_both(result: Precision, path: Path) -> tuple[Path, Path]:
     """The picture as a .png file, and beside it the narrow one, whose labels have places of their own."""
     with style.drawing() as plt:
-        wide = style.save(picture(plt, result), path)
+        wide = style.save(picture(plt, result), path, colours=style.PAGE)
         figure, label = _unlabelled(plt, result)
         ax = figure.axes[0]
         ax.set_title(ax.get_title().partition(": ")[2])  # without the name of the case

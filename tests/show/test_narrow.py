@@ -77,6 +77,27 @@ def test_panels_stand_below_each_other_and_each_has_what_it_shared():
         assert figure.legends[0].get_window_extent().width <= figure.bbox.width
 
 
+def test_areas_of_a_picture_of_few_colours_have_their_own(tmp_path):
+    """By hand: forty greys beside each other, each six levels from the next and 1/40 of the picture."""
+    greys = np.repeat(np.arange(40) * 6 + 10, 10).astype(np.uint8)
+    with style.drawing() as plt:
+        figure = plt.figure(figsize=(4, 1), dpi=100)
+        figure.figimage(np.repeat(np.tile(greys, (100, 1))[..., None], 3, axis=2))
+        path = style.save(figure, tmp_path / "a.png", 100, 32)
+    drawn = np.asarray(Image.open(path).convert("RGB")).astype(int)
+    assert np.abs(drawn - greys[None, :, None]).max() <= style.APART
+
+
+@pytest.mark.parametrize("scale, power", [(1.0, ""), (1e-7, "10^{−7}")])
+def test_numbers_at_ticks_are_text_and_a_power_of_ten_is_a_formula(scale, power, tmp_path):
+    with style.drawing() as plt:
+        figure, ax = plt.subplots()
+        ax.plot([0.0, 1.0], [0.0, 3 * scale])
+        style.save(figure, tmp_path / "a.png")
+        assert [text.get_text() for text in ax.get_yticklabels()][:3] == ["−0.5", "0.0", "0.5"]
+        assert power in ax.yaxis.get_offset_text().get_text()
+
+
 CURVES = {  # one ends on another, two end at one point, one is a single point
     "taylor": [(3.0, 1e-5, 0.3), (14.0, 1e-4, 0.3)], "RK45": [(0.5, 2e-3, 0.3), (4.0, 1e-2, 0.3)],
     "DOP853": [(1.0, 3e-3, 0.3), (8.0, 2e-2, 0.31)], "reduced": [(1.0, 3e-3, 4e-3), (8.0, 2e-2, 4e-3)],

@@ -5,6 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import stabilab
+from stabilab.answers.stuck.burn import with_latest
 from stabilab.case.read import load_any
 from stabilab.errors import InputError
 from stabilab.show import picture_kinds, style
@@ -130,6 +131,19 @@ def test_a_kind_without_a_picture_says_why_in_one_sentence(source, kinds, tmp_pa
         assert 20 < len(why) < 130 and "\n" not in why
         with pytest.raises(InputError, match=f"plot {kind}: "):
             to_file.write(source, tmp_path / ("a.html" if kind == "attitude" else "a.png"), kind)
+
+
+def test_a_burn_is_followed_once_for_a_page(tmp_path, monkeypatch):
+    """Its pictures, its limits and its words are of one answer; the latest closing time is added to it."""
+    calls, burn = [], subjects.burn
+    monkeypatch.setattr(subjects, "burn", lambda *of: (calls.append(of), burn(*of))[1])
+    monkeypatch.setattr(style, "save", lambda figure, path, *rest, **more: path)
+    monkeypatch.setattr(one_case, "picture", lambda path, narrow=None, **text: text | {"file": path.name})
+    page = one_case.sections_of_special(load_any(BURN), tmp_path, "burn", deep=False)
+    assert [row["kind"] for row in page["pictures"]][:1] == ["time"] and len(calls) == 1
+    answer, burning = stabilab.burn(BURN), load_any(BURN)
+    assert with_latest(answer, burning, burning.craft.limits.rate) == stabilab.burn(
+        BURN, below=burning.craft.limits.rate)
 
 
 @pytest.mark.slow

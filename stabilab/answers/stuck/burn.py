@@ -381,13 +381,26 @@ def burn(burning: Any, stop: Amount | None = None, below: Amount | None = None) 
     closed = _closed(chain, links)
     result = Burned(tuple(t.name for t in craft.thrusters), switches, closed,
                     caveats=(*craft_caveats(craft), *_granted(craft, closed)))
-    if limit is None:
-        return result
+    return result if limit is None else _with_latest(result, chain, links, limit)
+
+
+def with_latest(result: Burned, burning: Any, below: Fraction) -> Burned:
+    """What `burn(burning, below=below)` gives, of which `burn(burning)` gave the result; below: rad/s. Raises
+    InputError where a constant torque stays."""
+    chain = Chain(burning)
+    if not chain.quiet:
+        raise InputError(TORQUE_STAYS)
+    return _with_latest(result, chain, list(links_of(chain)), below)
+
+
+def _with_latest(result: Burned, chain: Chain, links: list[Link], limit: Fraction) -> Burned:
+    """The answer with the latest closing time that keeps |omega| below the limit."""
+    craft = chain.case
     out = _of_all_forces(chain, closing_time(chain, links, limit), limit)
-    result = replace(result, caveats=(*craft_caveats(craft), *_granted(craft, closed, out)))
+    result = replace(result, caveats=(*craft_caveats(craft), *_granted(craft, result.closed, out)))
     if not 0 < out.low < math.inf:
         return replace(result, latest=out)
-    early = Chain(burning, Fraction(out.low))
+    early = Chain(chain.burning, Fraction(out.low))
     return replace(result, latest=out, closed_latest=_closed(early, list(links_of(early))))
 
 

@@ -151,7 +151,8 @@ def _write(row, out, progress, telephone):
         progress(f"figure {row.number}{f' ({row.paper})' if row.paper else ''}")
     with style.drawing() as plt:
         pictures = row.pictures(plt)
-        paths = [style.save(drawn, out / name) for name, drawn in pictures.items()]
+        colours = style.PAGE if telephone else 256
+        paths = [style.save(drawn, out / name, colours=colours) for name, drawn in pictures.items()]
         if telephone:
             narrow.save(pictures[row.file], narrow.beside(out / row.file))
     apart = [f"printed curve against exact motion, largest difference at equal times: {line}"

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.circular_orbit import CircularOrbit, circular_orbit
 from ...errors import InputError
 from .. import limiting, style
 from ..text.motion import grows_in, orbit_headline
@@ -19,6 +18,7 @@ from .subject import Subject, measures
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ...answers.circular_orbit import CircularOrbit
     from ...equilibrium.circular_orbit import OrbitEquilibrium
 
 ACROSS = 4  # panels beside each other
@@ -46,7 +46,7 @@ def attitudes(item: Subject, ax: Axes | None = None, units: str | None = None,
         raise InputError("plot: expected a satellite: a case with [circular_orbit]")
     if ax is not None:
         raise InputError("ax: the attitudes at rest are panels of a figure of their own: leave ax out")
-    result = circular_orbit(item.orbiting)
+    result = item.orbit
     shown = _shown(result)
     if not shown:
         raise InputError(f"plot equilibria: there is nothing to draw: {result.equilibria.reason.text()}")

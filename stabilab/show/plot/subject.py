@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from ...answers.caveats import of_case
-from ...answers.circular_orbit import circular_orbit
+from ...answers.circular_orbit import CircularOrbit, circular_orbit
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.stuck.ask import stuck
-from ...answers.stuck.burn import burn
+from ...answers.stuck.burn import Burned, burn
 from ...answers.stuck.margins import Row
 from ...answers.time_to import time_to
 from ...case.read import Burning, Case, Orbiting, load_any
@@ -48,7 +48,8 @@ class Subject:
     it, None for the usual number; known: its motion, where that is worked out already; asked: the span that
     its pictures show, None for what is worth seeing; draws: percentiles over its uncertain numbers, where
     they are found already. burning: a burn, after whose last closing scene and state are, in a time that
-    counts from there; orbiting: a satellite on a circular orbit, whose scene is its body with its wheels."""
+    counts from there; burned: what it leaves; orbiting: a satellite on a circular orbit, whose scene is its
+    body with its wheels."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -61,15 +62,16 @@ class Subject:
     asked: tuple[float, ...] | None = None
     draws: Percentiles | None = field(default=None, repr=False)
     burning: Burning | None = field(default=None, repr=False)
+    burned: Burned | None = field(default=None, repr=False)
     orbiting: Orbiting | None = field(default=None, repr=False)
 
     @cached_property
     def caveats(self) -> tuple[Caveat, ...]:
         """What limits every answer about it."""
-        if self.burning is not None:
-            return burn(self.burning).caveats
+        if self.burned is not None:
+            return self.burned.caveats
         if self.orbiting is not None:
-            return circular_orbit(self.orbiting).caveats
+            return self.orbit.caveats
         return () if self.case is None else of_case(self.case)
 
     @property
@@ -125,6 +127,11 @@ class Subject:
         return result if self.case is None else headline.judged(self.case, result)
 
     @cached_property
+    def orbit(self) -> CircularOrbit:
+        """The attitudes at rest of a satellite on a circular orbit."""
+        return circular_orbit(self.orbiting)
+
+    @cached_property
     def stuck(self) -> Row:
         """What the stuck thrusters of the case do together. Raises InputError as `answers.stuck` does."""
         return stuck(self.case).rows[0]
@@ -171,9 +178,10 @@ def subject(source: Any, state: Any = None, span: Any = None) -> Subject:
 
 def _burned(burning: Burning, ends: tuple[float, ...] | None) -> Subject:
     """What follows a burn."""
-    closed, craft = burn(burning).closed, burning.craft
-    after = replace(craft, state=closed.rates, decimals=None, span=None)
-    return Subject(craft.physical, closed.rates, {}, None, craft.heading, after, asked=ends, burning=burning)
+    result, craft = burn(burning), burning.craft
+    after = replace(craft, state=result.closed.rates, decimals=None, span=None)
+    return Subject(craft.physical, result.closed.rates, {}, None, craft.heading, after, asked=ends,
+                   burning=burning, burned=result)
 
 
 def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:

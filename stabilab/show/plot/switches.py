@@ -2,11 +2,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.stuck.burn import Burned, burn
+from ...answers.stuck.burn import Burned, with_latest
 from ...answers.stuck.chain import Chain, links_of
 from ...errors import InputError
 from .. import limiting, style
@@ -39,11 +40,11 @@ def rates(item: Subject, ax: Axes | None = None, units: str | None = None,
     about other axes of a file have the rates along those. Raises InputError as `stabilab.burn` does, and for
     a span that does not begin at 0.
     """
-    if item.burning is None:
+    if item.burning is None or item.burned is None:
         raise InputError("plot: expected a burn: a case whose thrusters fire on a schedule")
-    chain, limits = Chain(item.burning), item.burning.craft.limits
-    below = limits.rate if limits is not None and limits.rate is not None and chain.quiet else None
-    answer = burn(item.burning, below=below)
+    chain, limits, answer = Chain(item.burning), item.burning.craft.limits, item.burned
+    if limits is not None and limits.rate is not None and chain.quiet:
+        answer = with_latest(answer, item.burning, Fraction(limits.rate))
     scale, end = measures(item, units), _end(item, answer)
     parts = list(_followed(chain, answer, end))
     t, omega = (np.concatenate(columns) for columns in zip(*parts))

@@ -68,7 +68,8 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
                 figure.set_size_inches(*size)
             if not titled:
                 figure.axes[0].set_title("")
-        files = [style.save(figure, endings.numbered(path, n), dpi)
+        colours = 256 if narrow is None else style.PAGE
+        files = [style.save(figure, endings.numbered(path, n), dpi, colours)
                  for n, figure in enumerate(figures, 1)]
         if narrow is not None:
             ax = figures[0].axes[0]

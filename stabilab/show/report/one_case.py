@@ -14,10 +14,8 @@ import numpy as np
 
 from ...answers.caveats import of_case
 from ...answers.certificate import certificate
-from ...answers.circular_orbit import circular_orbit
 from ...answers.equilibria import equilibria
 from ...answers.motion import Needs, motion
-from ...answers.stuck.burn import burn
 from ...answers.uncertain.fate import uncertain
 from ...answers.when import with_tilt
 from ...case.read import Burning, Orbiting
@@ -238,14 +236,14 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
     """Everything that the template says of a burn, or of a satellite on a circular orbit: the answer of its
     command, and its pictures."""
     case, item, absent = full.craft, subject(full), []
-    units, burning = units_of(case), item.burning is not None
+    units, answer = units_of(case), item.burned
+    burning = answer is not None
     if burning:
-        answer = burn(full)
         line, text = burn_headline(answer, units), burn_text(case, answer, units)
         fate = "undecided" if burn_undecided(answer) else answer.closed.motion.fate.word
         looks = "conditional" if burn_undecided(answer) else look(answer.closed.motion)
     else:
-        around = circular_orbit(full)
+        around = item.orbit
         line, text = orbit_headline(around.equilibria), circular_orbit_text(case, around, units)
         fate = looks = ""
     marked = fate and (fate if fate == "undecided" else badge(answer.closed.motion))
