@@ -81,7 +81,8 @@ SCALE = ("#DCC8FF", VIOLET, "#2A0055")                   # of numbers on a map, 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
 PAGE = 64  # colours of a picture on a page
-AREA, APART = 0.002, 16  # an area: this part of a picture in one colour; of 255: how far off it may be drawn
+AREA, LINE = 0.002, 2e-4  # parts of a picture in one colour: from which on it is drawn in no other
+APART = 24  # of 255: but for so much
 SMALL = 8  # how hard zlib tries: the last step takes thrice as long for two parts in a hundred
 MARGIN = 0.3  # inches beside a line of a title
 TITLE = 0.008  # inches that a letter of a title takes, a point of its size
@@ -188,10 +189,11 @@ def _of_few_colours(image, colours):
     """A Pillow image in so many colours, those of the house and of its areas among them: stripes below it
     make them common, and are cut off again. In twice as many colours where an area would have another."""
     from PIL import Image
-    ours = map(_levels, (BLACK, "#FFFFFF", GREY, BLUE, AMBER, VERMILION, *AXES, VIOLET, SAGE, WINE, *SURFACES,
-                         *FILL.values(), AGAINST))
+    ours = dict.fromkeys(map(_levels, (BLACK, "#FFFFFF", GREY, BLUE, AMBER, VERMILION, *AXES, VIOLET, SAGE,
+                                       WINE, *SURFACES, *FILL.values(), AGAINST)))
     pixels = image.width * image.height
-    areas = [colour for count, colour in image.getcolors(pixels) if count > AREA * pixels and colours < 256]
+    areas = [colour for count, colour in image.getcolors(pixels)
+             if count > (LINE if colour in ours else AREA) * pixels and colours < 256]
     stripes = {colour: image.height + 4 * n for n, colour in enumerate(dict.fromkeys([*ours, *areas]))}
     tall = Image.new("RGB", (image.width, image.height + 4 * len(stripes)))
     tall.paste(image)
@@ -201,7 +203,7 @@ def _of_few_colours(image, colours):
         few = tall.quantize(colours, dither=Image.Dither.NONE)
         palette = few.getpalette()
         shown = {area: palette[3 * few.getpixel((0, stripes[area])):][:3] for area in areas}
-        if all(abs(a - b) <= APART for area in areas for a, b in zip(area, shown[area])):
+        if colours == 256 or all(abs(a - b) <= APART for area in areas for a, b in zip(area, shown[area])):
             return few.crop((0, 0, *image.size))
         colours = min(2 * colours, 256)
 

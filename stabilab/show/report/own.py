@@ -20,9 +20,9 @@ from . import html, one_case
 if TYPE_CHECKING:
     from ...case.read import Case
 
-# rows and columns of a branch of a mesh, and its files: smooth to the eye, 190 kB a scene; `surface` has
+# rows and columns of a branch of a mesh, and its files: smooth to the eye, 170 kB a scene; `surface` has
 # finer ones, and .stl, which alone takes three times as much
-SHAPE, MESHES = (28, 57), ("vtp", "glb")
+SHAPE, MESHES = (26, 53), ("vtp", "glb")
 FOLDER = "cases"  # inside that of the report: pages of many cases, pictures and meshes of all
 
 
