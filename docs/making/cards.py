@@ -31,6 +31,16 @@ def of_case(where: str, entry: dict) -> str:
             f'<span>{html.escape(entry["line"])}</span></a>')
 
 
+def wide(picture: dict, alt: str) -> str:
+    """A picture as wide as the text of a page of the gallery, and the one that a telephone shows in its place
+    (`stabilab.show.narrow`). picture: as of `stabilab.show.report.html.picture`."""
+    narrow = picture["narrow"]
+    sides = [f'width="{width}" height="{height}"' for width, height in (narrow["size"], picture["size"])]
+    return ('```{raw} html\n<p><picture><source media="(max-width: 40em)" '
+            f'srcset="../_static/{narrow["file"]}" {sides[0]}><img loading="lazy" '
+            f'src="../_static/{picture["file"]}" {sides[1]} alt="{html.escape(alt)}"></picture></p>\n```\n')
+
+
 def of_question(where: str, question: str, picture: str) -> str:
     """The card of a question, which leads to the page that answers it. picture: a file, or empty."""
     return f'<a href="{where}">{_image(picture)}<strong>{html.escape(question)}</strong></a>'

@@ -16,6 +16,7 @@ from .written import page
 
 ROOT = Path(__file__).parents[2]
 FOLDER = "gallery"
+QUESTION = "question-"  # the name of the picture of a question begins so
 SHARP = 75  # dots an inch: a picture as wide as the text, some 20 kB
 HEAD = """# Cases
 
@@ -39,8 +40,8 @@ LEAD = (
 
 
 def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
-    """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of
-    the pages. cases: None for all."""
+    """Write gallery.md, gallery/<group>.md and the pictures of the cases; the names of all cases, in the
+    order of the pages. cases: None for all."""
     from stabilab.papers.report import LOOKS
     (docs / FOLDER / cards.FOLDER).mkdir(parents=True, exist_ok=True)
     entries = [entry(path, docs / FOLDER) for path in cases or sorted((ROOT / "cases").glob("*.toml"))]
@@ -49,10 +50,11 @@ def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
     grouped = {title: rows for title, rows in grouped.items() if rows}
     page(docs / "gallery.md", overview(grouped, questions(entries, docs / FOLDER)))
     known = ({f"{slug(title)}.md" for title in grouped}
-             | {f"{one['name']}{ending}" for one in entries for ending in (".png", ".json")})
-    cards_of = {one["card"] for one in entries}
-    for path in (docs / FOLDER / cards.FOLDER).glob("*-card.png"):
-        if path.name not in cards_of:
+             | {f"{one['name']}.json" for one in entries})
+    drawn = {file for one in entries
+             for file in (one["card"], one["picture"]["file"], one["picture"]["narrow"]["file"])}
+    for path in (docs / FOLDER / cards.FOLDER).glob("*.png"):
+        if path.name not in drawn and not path.name.startswith(QUESTION):
             path.unlink()
     for path in (docs / FOLDER).iterdir():
         if path.is_file() and path.name not in known:  # of a case or a group that is gone
@@ -66,7 +68,7 @@ def entry(path: Path, folder: Path) -> dict:
     """What the pages say of one case; its picture is in the folder then."""
     text = path.read_text(encoding="utf-8")
     key, kept = hashlib.sha256((program() + text).encode()).hexdigest(), folder / f"{path.stem}.json"
-    if all(file.exists() for file in (kept, folder / f"{path.stem}.png", folder / cards.FOLDER)):
+    if kept.exists() and (folder / cards.FOLDER / f"{path.stem}.png").exists():
         known = json.loads(kept.read_text(encoding="utf-8"))
         if known["key"] == key:
             return known
@@ -80,22 +82,25 @@ def made(path: Path, folder: Path) -> dict:
     drawn, with what its card says. Of a sweep the first combination is drawn; its card has all."""
     from stabilab.case.read import load_all
     from stabilab.papers.report import GROUPS, LOOKS, group
+    from stabilab.show import narrow
     from stabilab.show.plot import subject as which
-    from stabilab.show.plot import write
     from stabilab.show.plot.subject import subject
+    from stabilab.show.plot.to_file import write
+    from stabilab.show.report import html
     from stabilab.show.report.one_case import card_of
     from stabilab.show.terminal import written
     from stabilab.show.text.headline import headline, look
     case, *others = load_all(path)
     one = subject(case)
-    folder.mkdir(parents=True, exist_ok=True)
-    write(one, folder / f"{path.stem}.png", dpi=SHARP)
+    drawn = folder / cards.FOLDER / f"{path.stem}.png"
+    drawn.parent.mkdir(parents=True, exist_ok=True)
+    write(one, drawn, dpi=SHARP, narrow=narrow.beside(drawn))
     first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
     return {"title": written(case.title), "source": written(case.source or ""),
             "scene": [title for title, _ in GROUPS].index(group(case)),
             **card_of([case, *others], folder / cards.FOLDER),
             "group": LOOKS["" if others or case.state is None else look(one.motion)],
-            "kind": which.default(one),
+            "kind": which.default(one), "picture": html.picture(drawn, narrow.beside(drawn)),
             "answer": first + headline(case, one.motion)}
 
 
@@ -114,7 +119,7 @@ def questions(entries: list[dict], folder: Path) -> list[str]:
     held, kept, built = {one["name"] for one in entries}, folder / cards.FOLDER / "questions.txt", []
     same = kept.exists() and kept.read_text(encoding="utf-8") == program()
     for question, about, name in QUESTIONS:
-        file = folder / cards.FOLDER / f"question-{about}.png"
+        file = folder / cards.FOLDER / f"{QUESTION}{about}.png"
         if name in held:
             if not (same and file.exists()):
                 cards.draw(about, load_all(ROOT / "cases" / f"{name}.toml")[0], file)
@@ -139,7 +144,7 @@ def section(one: dict) -> str:
     source = f"\n\n*Source: {plain(one['source'])}.*" if one["source"] else ""
     name = f"cases/{one['name']}.toml"
     return (f"## {one['name']}\n\n{plain(one['title'])}. "
-            f"**{plain(one['answer'])}.**{source}\n\n![{plain(one['title'])}]({one['name']}.png)\n\n"
+            f"**{plain(one['answer'])}.**{source}\n\n{cards.wide(one['picture'], one['title'])}\n"
             f"```sh\nstabilab classify {name}\nstabilab plot {name} --kind {one['kind']} --out "
             f"{one['name']}.png\n```\n\n```toml\n{one['text']}```\n")
 

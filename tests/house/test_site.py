@@ -86,14 +86,15 @@ def test_every_public_class_says_its_units_or_what_it_stands_for():
             assert any(unit in inspect.getdoc(thing) for unit in units), name
 
 
+UNDRAWN = {"file": "a.png", "size": [2, 1], "narrow": {"file": "a-narrow.png", "size": [1, 1]}}
+
+
 def test_every_case_stands_in_the_gallery_under_its_outcome_below_the_questions(tmp_path, monkeypatch):
     from stabilab.papers.report import LOOKS
     outcomes = list(LOOKS.values())
 
     def undrawn(path, folder):
-        folder.mkdir(exist_ok=True)
-        (folder / f"{path.stem}.png").touch()
-        return {"title": path.stem, "source": "", "scene": 0, "group": outcomes[len(path.stem) % 4],
+        return {"picture": UNDRAWN, "title": path.stem, "source": "", "scene": 0, "group": outcomes[len(path.stem) % 4],
                 "kind": "time", "answer": "none", "card": f"{path.stem}-card.png", "badge": "bounded",
                 "look": "bounded", "line": "none"}
 
@@ -123,8 +124,9 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     assert "BOUNDED only while the torque is exactly along x3" in page and minor.read_text(
         encoding="utf-8") in page
     assert "stabilab plot cases/minor-axis-100.toml --kind phase" in page and "λ1 = 100" in page
-    assert (folder / "minor-axis-100.png").read_bytes().startswith(b"\x89PNG")
-    (gone := folder / "of-a-case-that-is-gone.png").touch()
+    for name in ("minor-axis-100.png", "minor-axis-100-narrow.png"):  # the other one on telephones
+        assert (folder / "cards" / name).read_bytes().startswith(b"\x89PNG") and f'="../_static/{name}"' in page
+    (gone := folder / "cards" / "of-a-case-that-is-gone.png").touch()
     with monkeypatch.context() as patch:
         patch.setattr(gallery, "made", lambda path, folder: pytest.fail("drawn again"))
         gallery.write(tmp_path, [minor])
@@ -133,7 +135,7 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
                                                   encoding="utf-8")
     drawn = []
     monkeypatch.setattr(gallery, "made", lambda path, folder: drawn.append(path)
-                        or {"title": "", "source": "", "scene": 0, "group": "Bounded for ever", "kind": "",
+                        or {"picture": UNDRAWN, "title": "", "source": "", "scene": 0, "group": "Bounded for ever", "kind": "",
                             "answer": "", "card": "", "badge": "", "look": "", "line": ""})
     gallery.write(tmp_path, [changed])
     assert drawn == [changed]
