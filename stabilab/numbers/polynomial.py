@@ -226,9 +226,9 @@ def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: 
 
 
 def halved(value: Callable[[float], float], low: float, high: float) -> float:
-    """The root of a function between two floats at which its signs differ, by halving, to some last places of
-    the larger."""
-    rising, enough = value(high) > 0, 2 * EPS * max(abs(low), abs(high))
+    """The root of a function between two floats at which its signs differ, or at one of which it is 0, by
+    halving, to some last places of the larger."""
+    rising, enough = value(high) > 0 or value(low) < 0, 2 * EPS * max(abs(low), abs(high))
     while high - low > enough:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if (value(middle) > 0) == rising else (middle, high)

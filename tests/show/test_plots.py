@@ -15,8 +15,8 @@ from scipy.integrate import solve_ivp
 import stabilab
 from stabilab import errors
 from stabilab.case.read import read_text
-from stabilab.show import style
-from stabilab.show.plot import path, subject, to_file
+from stabilab.show import space, style
+from stabilab.show.plot import path, subject, surfaces, to_file
 from stabilab.show.plot import subject as which
 from stabilab.show.plot.over_time import limit_marks
 from stabilab.show.text import cost
@@ -357,6 +357,24 @@ MOTION, BLACK, BLUE, VERMILION = style.VIOLET, style.BLACK, style.BLUE, style.VE
 
 def of_free_body(H, D, wheel=(0, 0, 0)):
     return (((H - np.array(wheel)) ** 2) / (2 * np.array(D))).sum(axis=-1)
+
+
+@pytest.mark.first(2, 2)
+@pytest.mark.parametrize("scale", [2.0**-18, 2.0**40, 1.0, 2.0**-60])
+def test_equilibria_are_found_at_rates_of_any_size(scale):
+    """By hand: without torque and wheel they are the principal axes, H = +-|H| e_i, that of the middle moment
+    unstable; nothing of it depends on the unit of the rates."""
+    item = subject.subject(stabilab.Scene(stabilab.Body((3.25, 3.0, 1.0))), (0.375 * scale, 0.25 * scale, scale))
+    size = math.hypot(3.25 * 0.375, 3.0 * 0.25, 1.0) * scale
+    drawn = surfaces.momentum_sphere(item)
+    points = np.array([point[0] for point, look in drawn.marks[:-1]]) / size  # the last is the start
+    assert len(points) == 3 and np.abs(np.sort(np.abs(points), axis=1) - [0, 0, surfaces.LIFT]).max() < 1e-9
+    assert {"stable equilibrium", "unstable equilibrium"} <= {text for text, _ in drawn.rows}
+    curves = space.curves_of(stabilab.equilibria(item.scene), space.Box((0.0,) * 3, (2 * scale,) * 3))
+    axes = sorted((int(np.abs(line[0]).argmax()), text.split()[0], np.abs(line).max() > 1.9 * scale)
+                  for text, line in curves)
+    assert axes == [(0, "stable", True)] * 2 + [(1, "unstable", True)] * 2 + [(2, "stable", True)] * 2
+    assert stabilab.plot.equilibria(item).get_xlim()[1] < 10 * np.degrees(scale)
 
 
 def test_on_the_momentum_sphere_the_motion_keeps_its_energy_and_the_separatrix_that_of_the_middle_axis():
