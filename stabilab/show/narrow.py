@@ -7,7 +7,7 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import style
+from . import labels, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,6 +66,8 @@ def narrowed(figure: Figure) -> Figure:
     below = sum(legend.get_window_extent().height for legend in figure.legends) / figure.dpi
     figure.set_size_inches(WIDTH, sum(heights) + below)
     _thinned(figure, [ax for ax, _, _ in cells])
+    if spatial := [ax for ax, _, _ in cells if getattr(ax, "name", "") == "3d" and len(ax.texts) > 1]:
+        labels.apart(*spatial)
     return figure
 
 

@@ -6,8 +6,8 @@ import pytest
 
 import stabilab
 from stabilab.case.read import load_any
-from stabilab.show import space, style
-from stabilab.show.plot import in_space, labels, surfaces
+from stabilab.show import labels, space, style
+from stabilab.show.plot import in_space, surfaces
 from stabilab.show.plot.subject import subject
 from tests.shared import CASES
 

@@ -9,7 +9,7 @@ from stabilab.answers.stuck.burn import with_latest
 from stabilab.case.read import load_any
 from stabilab.errors import InputError
 from stabilab.show import picture_kinds, style
-from stabilab.show.plot import canvas, to_file
+from stabilab.show.plot import canvas, thumbnail, to_file
 from stabilab.show.plot import subject as subjects
 from stabilab.show.plot.subject import measures, subject
 from stabilab.show.report import one_case
@@ -144,6 +144,32 @@ def test_a_burn_is_followed_once_for_a_page(tmp_path, monkeypatch):
     answer, burning = stabilab.burn(BURN), load_any(BURN)
     assert with_latest(answer, burning, burning.craft.limits.rate) == stabilab.burn(
         BURN, below=burning.craft.limits.rate)
+
+
+def test_a_card_of_a_burn_shows_its_rates_and_of_an_orbit_its_body(tmp_path):
+    """The largest |omega| of the burn by DOP853 between its switches, from the file of the picture's curve."""
+    with style.drawing() as plt:
+        ax = thumbnail._picture(plt, [(subject(BURN.replace("[limits]\nrate = \"15 deg/s\"\n", "")), "bounded")],
+                                None).axes[0]
+        t, drawn = ax.get_lines()[0].get_data()
+        times = np.linspace(0.05, 9.7, 40)
+        expected = np.linalg.norm(rates(times), axis=1)
+        assert np.abs(np.degrees(np.interp(times, t, drawn)) - expected).max() < 1e-3
+        assert "deg/s" in ax.texts[0].get_text()
+    made = one_case.sections_of_special(load_any(CASES / "orbits/boom.toml"), tmp_path, "a", deep=False)
+    assert (tmp_path / made["thumbnail"]["file"]).stat().st_size > 1000
+
+
+@pytest.mark.parametrize("titled", [True, False])
+def test_a_narrow_picture_of_attitudes_has_the_verdict_of_each(tmp_path, monkeypatch, titled):
+    """The heading of the case, which a page has, is the title of the whole figure, not of its first panel."""
+    saved = []
+    monkeypatch.setattr(to_file.narrow_pictures, "save", lambda figure, path: saved.append(
+        [ax.get_title().partition(":")[0] for ax in figure.axes]))
+    monkeypatch.setattr(to_file.style, "save", lambda figure, path, dpi: path)
+    to_file.write_all(CASES / "orbits/spinning.toml", tmp_path / "a.png", "equilibria",
+                      narrow=tmp_path / "b.png", titled=titled)
+    assert saved == [["one of a family"] * 4]
 
 
 @pytest.mark.slow

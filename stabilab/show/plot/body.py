@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...physics.effects.base import effect_words
-from .. import style
+from .. import labels, style
 from ..axes import PLAIN
 from ..units import number
-from . import canvas, labels
+from . import canvas
 from . import subject as subjects
 from .subject import Subject, measures, subject
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import InputError
-from .. import limiting, style
+from .. import labels, limiting, style
 from ..text.motion import grows_in, orbit_headline
 from ..units import SHORT, Units, number, units_of
-from . import canvas, labels
+from . import canvas
 from .body import CORNERS, FACES, box_sides
 from .subject import Subject, measures
 

@@ -46,8 +46,7 @@ def rates(item: Subject, ax: Axes | None = None, units: str | None = None,
     if limits is not None and limits.rate is not None and chain.quiet:
         answer = with_latest(answer, item.burning, Fraction(limits.rate))
     scale, end = measures(item, units), _end(item, answer)
-    parts = list(_followed(chain, answer, end))
-    t, omega = (np.concatenate(columns) for columns in zip(*parts))
+    t, omega = _run(chain, answer, end)
     turned = file_axes(item)
     omega = omega if turned is None else omega @ turned.T
     unit, per_time = scale.time(end)
@@ -79,6 +78,19 @@ def _end(item: Subject, answer: Burned) -> float:
     few = min(PERIODS * period, closed.time) if np.isfinite(period) else 0.0
     end = closed.time + max(AFTER * closed.time, few)
     return max(end or 1.0, craft.span[-1] if craft.span else 0.0)
+
+
+def whole(item: Subject) -> tuple[np.ndarray, np.ndarray]:
+    """Times (n,) and rates (n, 3) along the principal axes of a burn, from its start past its last closing.
+    Raises InputError as `rates` does."""
+    burning: Any = item.burning
+    chain, answer = Chain(burning), burn(burning)
+    return _run(chain, answer, _end(item, answer))
+
+
+def _run(chain: Chain, answer: Burned, end: float) -> tuple[np.ndarray, np.ndarray]:
+    t, omega = zip(*_followed(chain, answer, end))
+    return np.concatenate(t), np.concatenate(omega)
 
 
 def _followed(chain: Chain, answer: Burned, end: float) -> Iterator[tuple[np.ndarray, np.ndarray]]:

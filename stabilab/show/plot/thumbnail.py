@@ -1,4 +1,5 @@
-"""A case in 240 pixels, for the card of a list: how large its rates grow and its limit, without a title."""
+"""A case in 240 pixels, for the card of a list: how large its rates grow and its limit, without a title; of a
+satellite on a circular orbit its body."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -9,9 +10,11 @@ import numpy as np
 
 from .. import style
 from ..units import SHORT, number
+from .body import body
 from .over_time import LIMIT, file_axes
 from .path import SOLID, band, path, turning
 from .subject import Measures, Subject, measures
+from .switches import whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,8 +36,12 @@ def write(items: Sequence[tuple[Subject, str]], out: Path, units: str | None = N
 
 def _picture(plt: Any, items: Sequence[tuple[Subject, str]], units: str | None) -> Any:
     first, scale = items[0][0], measures(items[0][0], units)
-    begin, end = (pick(values) for pick, values in zip((min, max), zip(*(item.seen for item, _ in items))))
-    sizes = [_sizes(item, begin, end, scale) for item, _ in items]
+    if first.orbiting is not None:
+        return body(first, size=SIZE, legend=False, bare=True).figure
+    ends = [(0.0, 0.0) if item.burning is not None else item.seen for item, _ in items]
+    begin, end = (pick(values) for pick, values in zip((min, max), zip(*ends)))
+    sizes = [_sizes(item, begin, end) for item, _ in items]
+    end = max(end, *(float(t[-1]) for t, _ in sizes))
     limit = _limit(first, scale)
     figure = plt.figure(figsize=SIZE)
     ax = figure.add_axes((0.03, 0.17, 0.94, 0.8))
@@ -56,9 +63,10 @@ def _picture(plt: Any, items: Sequence[tuple[Subject, str]], units: str | None) 
     return figure
 
 
-def _sizes(item: Subject, begin: float, end: float, scale: Measures) -> tuple[np.ndarray, np.ndarray]:
-    """Times, and |omega| or, of limits about axes, the component nearest to its limit, as a part of it."""
-    t, omega = path(item, begin, end)
+def _sizes(item: Subject, begin: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times, and |omega| or, of limits about axes, the component nearest to its limit, as a part of it. Of a
+    burn across its switches."""
+    t, omega = whole(item) if item.burning is not None else path(item, begin, end)
     limits = _of_components(item)
     if limits is None:
         return t, np.linalg.norm(omega, axis=1)

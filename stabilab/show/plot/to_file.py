@@ -66,14 +66,17 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
         for figure in figures:
             if size is not None:
                 figure.set_size_inches(*size)
-            if not titled:
+            if not titled and figure.get_suptitle():
+                figure.suptitle("")
+            elif not titled:
                 figure.axes[0].set_title("")
         colours = 256 if narrow is None else style.PAGE
         files = [style.save(figure, endings.numbered(path, n), dpi, colours)
                  for n, figure in enumerate(figures, 1)]
         if narrow is not None:
             ax = figures[0].axes[0]
-            ax.set_title(ax.get_title().partition("\n")[2])  # without the heading of the case: a page has it
+            if titled and not figures[0].get_suptitle():  # without the heading of the case: a page has it
+                ax.set_title(ax.get_title().partition("\n")[2])
             narrow_pictures.save(figures[0], Path(narrow))
         return files
 

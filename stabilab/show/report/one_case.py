@@ -264,7 +264,7 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         "name": case.name, "title": case.heading, "source": case.source, "path": case.path,
         "text": case.text, "headline": printed(line), "first": printed(line), "small": "",
         "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "badge": marked,
-        "tiles": [], "facts": [],
+        "thumbnail": _thumbnail([(item, looks)], folder, stem), "tiles": [], "facts": [],
         "extremes": [], "pictures": drawn, "answer": printed(text),
         "absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
 
