@@ -437,11 +437,14 @@ def _arrow_of(line: list[Point], box: Box) -> Iterator[tuple[Point, Point]]:
 
 def _beside(bold: Iterable[tuple[list[Point], str]], box: Box,
             view: tuple[float, float]) -> tuple[tuple[Point, str], ...]:
-    """(place, words) beside each of the turns that are drawn: at the end of it, seen from a side, that is
-    farthest from what is written already, the smallest turns first; at one place, words are joined."""
+    """(place, words) beside each of the turns that are drawn: at the start, or at the end of the turn, seen
+    from a side, that is farthest from what is written already, the smallest turns first; at one place, words
+    are joined."""
     seen_from = lambda at: across(box.share(at), view)
-    ends = [([choose(line, key=lambda at: seen_from(at)[n]) for n in (0, 1) for choose in (max, min)], text)
-            for line, text in bold]
+    bold = [(line, text) for line, text in bold if text]
+    ends = [(line[:1] if not n else
+             [choose(line, key=lambda at: seen_from(at)[n]) for n in (0, 1) for choose in (max, min)], text)
+            for n, (line, text) in enumerate(bold)]
     ends.sort(key=lambda row: sum(math.dist(seen_from(a), seen_from(b)) for a, b in combinations(row[0], 2)))
     out: list[tuple[Point, list[str]]] = []
     for places, text in ends:

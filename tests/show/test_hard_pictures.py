@@ -3,12 +3,14 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab.case.read import load_any
 from stabilab.show import labels, space, style
 from stabilab.show.plot import in_space, surfaces
 from stabilab.show.plot.subject import subject
+from stabilab.show.turns.band import outside
 from tests.shared import CASES
 
 ASTEROID = """
@@ -141,3 +143,24 @@ def test_ends_of_draws_that_are_not_finite_are_not_named():
     ax = stabilab.plot.histogram(CASES / "uncertain-separatrix.toml", samples=60)
     names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
     assert "5 %" in names and not any("and 95 %" in name for name in names)
+
+
+def test_what_does_not_go_round_is_drawn_between_bands():
+    assert outside([True, False, False, True, False]) == [(1, 3), (4, 5)]
+    assert outside([False, True]) == [(0, 1)] and outside([True, True]) == []
+
+
+def test_the_turn_of_a_body_into_its_wheel_is_drawn_before_the_nutation_that_is_left():
+    """By DOP853 from D w' = -w x (D w + h e_y) - u e_y, h' = u, with the numbers of the file; deg/s."""
+    D, u = np.array([118.0, 96, 152]), 0.02
+    law = lambda t, y: [*((-np.cross(y[:3], D * y[:3] + [0, y[3], 0]) - [0, u, 0]) / D), u]
+    run = solve_ivp(law, (0, 900), [0, 0, 3.15 * math.tau / 60, 0], "DOP853", rtol=1e-10, atol=1e-12,
+                    dense_output=True)
+    ax = stabilab.plot.space(CASES / "dual-spin-turn.toml")
+    drawn = np.concatenate([np.array(line.get_data_3d()) for line in ax.get_lines()
+                            if line.get_color() == style.VIOLET], axis=1)
+    for t in (60, 300, 600, 840):
+        at = np.degrees(run.sol(t)[:3])
+        assert np.nanmin(np.linalg.norm(drawn.T - at, axis=1)) < 0.3, t
+    place = next(text for text in ax.texts if text.get_text().strip() == "start, 0 min").get_position_3d()
+    assert np.linalg.norm(np.array(place) - [0, 0, 18.9]) < 1

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 MANY, FEW = (90, 600), (40, 90)
 FLAT = 1e-9  # of the picture: equilibria nearer than this to a plane across an axis are drawn in it
 BEYOND = 2.4  # times the farthest fold, or the nearest point of a curve without one: how far a curve is shown
+TICKS = 5  # across, at most and one: a square in a broad figure has no room for more long numbers
 FOLD: dict[str, Any] = style.MARKER["degenerate"]
 
 
@@ -123,3 +124,4 @@ def _in_plane(ax: Axes, drawn: Space, folds: np.ndarray, flat: int) -> None:
     ax.set(xlabel=drawn.names[first], ylabel=drawn.names[second],
            xlim=(box.low[first], box.high[first]), ylim=(box.low[second], box.high[second]))
     ax.set_aspect("equal", adjustable="box")
+    ax.locator_params(axis="x", nbins=TICKS)

@@ -16,12 +16,13 @@ from ..turns.band import (
     SPARE,
     Grid,
     Long,
+    band_of,
     bold_turns,
     name_of,
     often,
     one_turn,
+    outside,
     rows_of,
-    skins,
 )
 from ..turns.moment import moment
 from .path import along, path
@@ -29,6 +30,7 @@ from .subject import Subject
 
 TURNS, FINE = 8, 48  # in a stretch of time that are looked at, at most; places on each
 BOLD = 96  # places on a turn that is drawn as a line
+MOST = 4000  # of a part of the motion that does not go round
 TRIED, CUT = 6, 8  # how often, and by how much, places get denser until they show each turn
 PROBES, PROBED, SPAN = 9, 120, 0.002  # where turns are measured, by how many places, over which part of all
 # of what a band fills: exact extremes so near those of its samples are of the same time
@@ -58,11 +60,15 @@ def long(item: Subject, t: np.ndarray, omega: np.ndarray, clock: Clock) -> tuple
     for row in times:
         at = states[(followed >= row[0]) & (followed <= row[-1])]
         places.append(at if len(at) > 2 else np.empty((0, 3)))
-    stretches = [row.tolist() for row in places[:len(windows)] if len(row)]
+    whole = [n for n, row in enumerate(places[:len(windows)]) if len(row)]
     sampled = min(number, int(round(sum((b - a) / turn(a) for a, b in windows))))
-    band = exactly(skins(stretches, name_of(number, sampled)), item, low, high, number)
+    skins, goes = band_of([places[n].tolist() for n in whole], name_of(number, sampled))
+    band = exactly(skins, item, low, high, number)
     lines = [(one_turn(row.tolist(), backwards), text)
              for row, (*_, backwards, text) in zip(places[len(windows):], bold) if len(row)]
+    for first, end in outside(goes) if len(t) >= FEW * number else ():
+        part = omega[(t >= edges[whole[first]]) & (t <= edges[whole[end - 1] + 1])]
+        lines.append((part[::max(1, len(part) // MOST)].tolist(), ""))
     return Long(band, tuple(lines), number, sampled), np.concatenate(places)
 
 

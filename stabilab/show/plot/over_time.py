@@ -429,6 +429,8 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
             target.set_ylim(0.0, top)
         for axis in (target.xaxis, target.yaxis):
             axis.set_major_formatter("{x:g}")
+            if target.get_yscale() == "log":
+                axis.set_minor_formatter(_between_decades())
         target.set_xlabel(f"tilt of {out.of} (deg)")
         smallest = f"{number(out.limit.least_rate() * scale.rate[1], SHORT)} {scale.rate[0]}"
         reaches = r"$|\omega|$ =" if out.limit.kind == "rate" else "a component of"
@@ -436,6 +438,16 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         target.set_ylabel(f"time to {supposed}{reaches} {smallest} ({unit})")
         return canvas.explained(target, rows if legend else [], ax is None,
                                 item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
+
+
+def _between_decades() -> Any:
+    """What stands at ticks between powers of ten, where there are few of these: a number as elsewhere."""
+    from matplotlib.ticker import LogFormatterSciNotation
+
+    class Plain(LogFormatterSciNotation):
+        def __call__(self, x: float, pos: int | None = None) -> str:
+            return number(x) if super().__call__(x, pos) else ""
+    return Plain()
 
 
 def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = None,

@@ -43,7 +43,8 @@ class Grid:
 @dataclass(frozen=True)
 class Long:
     """A motion of many turns. skins: of the band, empty where its turns do not go round steadily; bold: the
-    turns that are drawn as lines, each with the time at its middle and what is written beside it; number: of
+    turns that are drawn as lines, each with what is written beside it, the first of them from the start; and
+    with nothing beside it what does not go round and is in no band; number: of
     all turns; sampled: how many of them the band is made of."""
 
     skins: tuple[Grid, ...]
@@ -193,6 +194,12 @@ def _apart(a: list[Point], b: list[Point]) -> float:
 def skins(stretches: Sequence[Sequence[Point]], name: str) -> tuple[Grid, ...]:
     """The band of a motion: of each stretch of time the places (n, 3) along it, some turns of them, in order.
     Empty where its turns do not go round steadily."""
+    return band_of(stretches, name)[0]
+
+
+def band_of(stretches: Sequence[Sequence[Point]], name: str) -> tuple[tuple[Grid, ...], list[bool]]:
+    """The same, and of each stretch whether its turns go round, so that it is in the band: of the others the
+    line of the motion itself is to be drawn."""
     size = [max(v) - min(v) for v in zip(*(at for points in stretches for at in points))]
     scale = [v / 2 if v > 1e-9 * max(size) else max(size) / 2 for v in size]
     rows: list[_Row | None] = []
@@ -201,12 +208,13 @@ def skins(stretches: Sequence[Sequence[Point]], name: str) -> tuple[Grid, ...]:
         row = _row([tuple(a / b for a, b in zip(at, scale)) for at in points], before)
         before = before if row is None else row.frame
         rows.append(row)
-    if sum(row is not None for row in rows) < STEADY * len(rows):
-        return ()
+    goes = [row is not None for row in rows]
+    if sum(goes) < STEADY * len(rows):
+        return (), goes
     grids = [grid for strip in _strips(rows) for grid in _skins_of(strip)]
     return tuple(Grid(name, len(grid), COLUMNS + 1,
                       [tuple(a * b for a, b in zip(at, scale)) for ring in grid for at in (*ring, ring[0])])
-                 for grid in grids)
+                 for grid in grids), goes
 
 
 def _strips(rows: Sequence[_Row | None]) -> Iterator[list[_Row]]:
@@ -255,13 +263,20 @@ def along(times: Sequence[float], path: Sequence[Point], clock: tuple[str, float
     turn, last = len(path) / number, len(path) - 1
     count = rows_of(number)
     edges = [round(n * last / count) for n in range(count + 1)]
-    band = skins([path[a:max(b, round(a + APIECE * turn)) + 1] for a, b in zip(edges, edges[1:])],
-                 name_of(number, number))
+    band, goes = band_of([path[a:max(b, round(a + APIECE * turn)) + 1] for a, b in zip(edges, edges[1:])],
+                         name_of(number, number))
     bold, length = [], (times[-1] - times[0]) / number
     for low, high, backwards, text in bold_turns(times[0], times[-1], lambda at: length, clock, matters):
         part = path[bisect_left(times, low):bisect_left(times, high) + 1]
         bold += [(one_turn(part, backwards), text)] if len(part) > 2 else []
+    bold += [(list(path[edges[a]:edges[b] + 1]), "") for a, b in outside(goes)]
     return Long(band, tuple(bold), number, number) if band else None
+
+
+def outside(goes: Sequence[bool]) -> list[tuple[int, int]]:
+    """(from, to) of each run of stretches that do not go round, the end not included."""
+    edges = [n for n, (a, b) in enumerate(pairwise((True, *goes, True))) if a != b]
+    return list(zip(edges[::2], edges[1::2]))
 
 
 def rows_of(number: int) -> int:
