@@ -3,6 +3,7 @@ on the command line."""
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -155,6 +156,8 @@ def test_of_a_state_at_rest_whose_neighbours_are_too_stiff_no_number_is_printed(
     found = stabilab.chaos(case)
     assert found.labels == Order.REGULAR and np.isnan(found.megno)
     assert "nan" not in words.text(case, found) and found.reason.code == "equilibrium-too-stiff"
+    begun = replace(found, history=np.array([1.5, *found.history[1:]]))  # given up after its first stage
+    assert "nan" not in words.text(case, begun) and "    1.5000\n" in words.text(case, begun)
 
 
 def test_rates_whose_squares_are_no_doubles_are_followed_in_their_own_time():

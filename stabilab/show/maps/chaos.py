@@ -125,7 +125,7 @@ def text(case: Any, result: Chaos, _: Any = None) -> str:
                      f"{math.log(2) / rate:.3g} {unit}")
     if np.isfinite(result.history).any():
         lines.append("  an indicator of a finite time, no proof; time and MEGNO:")
-        lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}"
+        lines += [f"  {time:12.6g} {unit}  {_number(value, '9.4f') or 'not followed'}"
                   for time, value in zip(result.times.tolist(), result.history.tolist())]
     return "\n".join(lines)
 
