@@ -11,7 +11,7 @@ from ..answers.caveats import answered, of_case
 from ..answers.chaos import Order, row_of
 from ..answers.chaos import chaos as ask_chaos
 from ..case.read import blamed_on, load, load_any, special
-from ..errors import RenderingUnavailable, printable
+from ..errors import Kind, RenderingUnavailable, printable, without
 from ..show import endings, limiting
 from ..show.maps import chaos as chaos_shown
 from ..show.maps import picture
@@ -78,12 +78,18 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
                                            dpi, units, end, neighbours))
     laws = [headline.of_case(entry) for entry in loaded]
     for item, held, paths in zip(loaded, laws, drawn):
-        for line in limiting.beside(of_case(item), units_of(item, units)):
+        for line in limiting.beside(_unless_drawn(of_case(item), kind), units_of(item, units)):
             tell(line)
         if held is not None:
             tell(lettered(held.words))
         write("\n".join(map(str, paths)))
     hold_laws(strict, laws, loaded)
+
+
+def _unless_drawn(caveats, kind):
+    """The caveats of a picture: of draws of the uncertain numbers it is not one of their middles."""
+    return (caveats if kind != "histogram"
+            else without(caveats, Kind.UNCERTAIN, Kind.TOLERANCE, Kind.DISTRIBUTION))
 
 
 def _plot_special(case, kind, out, size, dpi, until, units):
@@ -96,7 +102,7 @@ def _plot_special(case, kind, out, size, dpi, until, units):
         end = time_asked(until, craft, "until")
         item = subject(built, span=end)
         paths = to_file.write_all(item, target, kind, size, dpi, units)
-    for line in limiting.beside(item.caveats, units_of(craft, units)):
+    for line in limiting.beside(_unless_drawn(item.caveats, kind), units_of(craft, units)):
         tell(line)
     write("\n".join(map(str, paths)))
 

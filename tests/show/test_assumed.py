@@ -72,3 +72,14 @@ def test_every_view_of_a_spin_up_says_that_it_is_assumed():
     film = turn(item, 20, item.assumed)
     assert film.assumed and film.share == pytest.approx(
         np.linalg.norm(film.omega, axis=1) / (2 * math.sqrt(1.25)), rel=1e-12)
+
+
+@pytest.mark.parametrize("span, reaches", [(None, True), (50, False)])
+def test_a_film_reaches_the_assumed_limit_or_says_that_it_ends_before(span, reaches):
+    """95.38 s as above; a span that is asked for is kept."""
+    item = subject(SPINS_UP, span=span)
+    film = turn(item, 40, item.assumed)
+    text = film.part(units_of(SPINS_UP))
+    assert (film.t[-1] > 95.38) == reaches and (film.later is None) == reaches
+    assert ("It ends before what matters: assumed limit, 95.38 s." in text or "1.59 min." in text) == (not reaches)
+    assert (film.moment is not None and film.moment[1] == "assumed limit") == reaches

@@ -124,7 +124,7 @@ def test_attitudes_at_rest_are_drawn_at_rest(name):
     assert subjects.offered(item) == ("equilibria", "body")
 
 
-@pytest.mark.parametrize(("source", "kinds"), [(BURN, ("tilt", "wheel", "histogram", "budget")), (
+@pytest.mark.parametrize(("source", "kinds"), [(BURN, ("tilt", "wheel", "budget")), (
     CASES / "orbits/boom.toml", set(picture_kinds.KINDS) - {"equilibria", "body"})])
 def test_a_kind_without_a_picture_says_why_in_one_sentence(source, kinds, tmp_path):
     for kind in kinds:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...case.given import Given
 from ...errors import InputError
-from ...maps.percentiles import of_case_drawn
+from ...maps.percentiles import AS_UNIFORM, LEFT_OUT, of_burn_drawn, of_case_drawn
 from .. import style
 from ..text.percentiles import drawn
 from ..units import SHORT, number
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ...maps.percentiles import Percentiles
 
 DRAWS, SEED = 500, 1
+NOTED = (LEFT_OUT.code, AS_UNIFORM.code)  # caveats that stand below the picture
 BAR: dict[str, Any] = {"color": style.VIOLET, "alpha": 0.55}
 MEDIAN: dict[str, Any] = {"color": style.BLACK, "linewidth": 1.4}
 ENDS: dict[str, Any] = {"color": style.BLACK, "linewidth": 1.0, "linestyle": "--"}
@@ -30,6 +31,15 @@ def _spread(result: Percentiles) -> Any:
     return result.largest if result.time is None else result.time
 
 
+def draws_of(item: Subject, samples: int, seed: int, workers: int | None, largest: bool) -> Percentiles:
+    """What draws of its uncertain numbers do: the time to its limit, where it has one, and the largest rate
+    where that is asked for."""
+    timed = item.case.limits is not None  # type: ignore[union-attr]
+    if item.burning is not None:
+        return of_burn_drawn(item.burning, samples, seed, workers, timed, largest)
+    return of_case_drawn(item.case, samples, seed, workers, timed, largest)  # type: ignore[arg-type]
+
+
 def is_known(result: Percentiles) -> bool:
     """Whether some draw has a value to be drawn."""
     return _spread(result).histogram()[2] < result.number
@@ -39,7 +49,7 @@ def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None =
               size: tuple[float, float] | None = None, legend: bool = True, samples: int = DRAWS,
               seed: int = SEED) -> Axes:
     """Draw how often draws of the uncertain numbers reach the limit of the case after which time, and return
-    the axes; without a limit how large their largest rates are.
+    the axes; without a limit how large their largest rates are, of a burn during it and after it.
 
     samples, seed: of the draws. Lines: 5 %, median and 95 % of all draws, with their 95 % bounds shaded;
     draws that never come there, or whose rate grows without end, stand in the title. Raises InputError where
@@ -49,7 +59,7 @@ def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None =
     subjects.check("histogram", item)
     scale = measures(item, units)
     timed = item.case.limits is not None
-    result = item.draws or of_case_drawn(item.case, samples, seed, None, timed, not timed)
+    result = item.draws or draws_of(item, samples, seed, None, not timed)
     spread: Any = _spread(result)
     edges, counts, beyond = spread.histogram()
     if not is_known(result):
@@ -77,5 +87,6 @@ def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None =
         other = "never reach it, or are not known" if timed else "grow without end, or are not known"
         text = (f"{drawn(result.number)} of the uncertain numbers, seed {result.seed}; samples, no proof"
                 + f"; {beyond:,} {other} ({number(100 * beyond / result.number, SHORT)} %)" * bool(beyond))
-        return canvas.explained(target, rows if legend else [], ax is None, item.heading, text,
-                                *(caveat.words for caveat in result.caveats if "left out" in caveat.words))
+        heading = item.heading if item.burning is None else item.burning.craft.heading
+        return canvas.explained(target, rows if legend else [], ax is None, heading, text,
+                                *(caveat.words for caveat in result.caveats if caveat.reason.code in NOTED))

@@ -212,7 +212,6 @@ NO_MOTION_ON_ORBIT = ("a motion on a circular orbit is not followed; its attitud
 NOT_OF_BURNS = {
     "tilt": "the torque of a burn ends, and after it nothing has a tilt",
     "wheel": "the torque of a burn ends; by when thrusters must close: stabilab burn --below",
-    "histogram": "percentiles of draws of a burn are given in numbers: stabilab burn --samples",
     "budget": "what accuracy costs is measured of a torque that never changes"}
 NO_BODY = "scaled variables have no body: give the case in physical units"
 

@@ -51,7 +51,7 @@ class Turn:
     momentum of the wheels, N m s, body; share: (n,) of the limit of the case, or, assumed, of the one
     that is taken where it states none; None without either. even: (first, last) picture of the stretches that
     go on evenly, between which it goes fast; moment: (time, words) of what matters in its time, None where
-    nothing is known to."""
+    nothing is known to; later: the same of what matters after its end."""
 
     t: np.ndarray
     rotations: np.ndarray
@@ -66,6 +66,7 @@ class Turn:
     even: tuple[tuple[int, int], ...] = ()
     moment: tuple[float, str] | None = None
     assumed: bool = False
+    later: tuple[float, str] | None = None
 
     @property
     def arrows(self) -> list[tuple[str, str, np.ndarray]]:
@@ -85,7 +86,12 @@ class Turn:
         return "; ".join(f"{letter}: {text[letter]}" for letter, *_ in self.arrows)
 
     def part(self, units: Units) -> str:
-        """How a film goes that is not even, or ends before its span."""
+        """How a film goes that is not even, or ends before its span or before what matters."""
+        later = ("" if self.later is None
+                 else f"It ends before what matters: {self.later[1]}, {units.time(self.later[0], SHORT)}.")
+        return " ".join(filter(None, (self._pace(units), later)))
+
+    def _pace(self, units: Units) -> str:
         if len(self.even) > 1:
             middle = (f", at {units.time(self.moment[0], SHORT)} ({self.moment[1]})"
                       if self.moment is not None and len(self.even) > 2 else "")
@@ -119,9 +125,10 @@ def turn(item: Subject, frames: int = FRAMES, limit: Assumed | None = None) -> T
     if not 2 <= frames <= 5000:
         raise InputError(f"frames: expected 2 to 5000, got {frames!r:.40}")
     low, high = item.seen
-    matters = moment(item.motion, None if limit is None else limit.time)
-    matters = matters if matters is not None and low < matters[0] < high else None
-    (t, rotations, omega), even = _paced(item, low, high, frames, matters and matters[0])
+    known = moment(item.motion, None if limit is None else limit.time)
+    (t, rotations, omega), even = _paced(item, low, high, frames, known and known[0])
+    matters = known if known is not None and low < known[0] <= t[-1] else None
+    later = known if matters is None and known is not None and low < t[-1] < known[0] else None
     full = abs(t[-1] - high) <= 1e-9 * abs(high - low)
     scene: Any = item.scene  # physical: `which` refuses the others
     vector = lambda name: (np.array([float(v) for v in scene.vector(name)])
@@ -130,7 +137,7 @@ def turn(item: Subject, frames: int = FRAMES, limit: Assumed | None = None) -> T
     momentum = np.einsum("nij,nj->ni", rotations, omega * np.array(scene.body.inertia) + wheel)
     edges = np.maximum(box_sides(scene.body.inertia), THINNEST)
     return Turn(t, rotations, omega, edges, full, abs(high - low), momentum, vector("constant_torque"),
-                wheel, _share(item, omega, limit), even, matters, limit is not None)
+                wheel, _share(item, omega, limit), even, matters, limit is not None, later)
 
 
 def _share(item: Subject, omega: np.ndarray, limit: Assumed | None):

@@ -20,7 +20,6 @@ from ...answers.uncertain.fate import uncertain
 from ...answers.when import with_tilt
 from ...case.read import Burning, Orbiting
 from ...errors import Kind, StabilabError, without
-from ...maps.percentiles import of_case_drawn
 from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
@@ -28,7 +27,7 @@ from .. import certification, frame, limiting, narrow, style
 from ..picture_kinds import KINDS
 from ..plot import subject as subjects
 from ..plot import thumbnail, to_file
-from ..plot.histogram import SEED, is_known
+from ..plot.histogram import SEED, draws_of, is_known
 from ..plot.in_space import space_of
 from ..plot.over_time import file_axes
 from ..plot.path import along
@@ -166,8 +165,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
         item = replace(item, known=moved)
         if deep and case.uncertain:
-            item = replace(item, draws=_tried(absent, "Percentiles", lambda: of_case_drawn(
-                case, DRAWS, SEED, 1, case.limits is not None, True)))
+            item = replace(item, draws=_tried(absent, "Percentiles",
+                                              lambda: draws_of(item, DRAWS, SEED, 1, True)))
     if case.state is None:
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
     request = ("equilibria", "fate") if case.state else ("equilibria",)
@@ -230,6 +229,7 @@ SPECIAL = {
                              "Blue: stable; vermilion: unstable; amber: undecided. A half turn about the "
                              "orbit normal leads to the other of each pair.")}}
 AFTERWARDS = " Of the free motion after the last closing."
+WHOLE = ("body", "histogram")  # pictures that are not of what follows a burn alone
 
 
 def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep: bool = True) -> dict:
@@ -248,19 +248,24 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         fate = looks = ""
     marked = fate and (fate if fate == "undecided" else badge(answer.closed.motion))
     every = deep or not burning
+    if deep and burning and case.uncertain:
+        item = replace(item, draws=_tried(absent, "Percentiles",
+                                          lambda: draws_of(subject(full), DRAWS, SEED, 1, True)))
     drawn = _tried(absent, "Pictures", lambda: pictures(item, folder, stem, every, units.name)) or []
     own = SPECIAL["burn" if burning else "orbit"]
     for row in drawn:
         row["title"], row["caption"] = own.get(
-            row["kind"], (row["title"], row["caption"] + AFTERWARDS * (burning and row["kind"] != "body")))
+            row["kind"], (row["title"], row["caption"] + AFTERWARDS * (burning and row["kind"] not in WHOLE)))
         row["place"] = "motion" if row["place"] == "equilibria" else row["place"]
     missing: dict[str, list[str]] = {}
     for kind, about in SHOWN.items():
-        missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
+        if kind != "histogram" or case.uncertain:  # a case without such numbers lacks nothing
+            missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
     absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
     caveats = limiting.beside(item.caveats, units, line)
-    return dict.fromkeys(("law", "exceeded", "over", "uncertain", "percentiles", "sensitivity",
-                          "certificate", "equilibria", "equations", "space"), "") | {
+    draws = "" if item.draws is None else percentiles.text(item.draws, units)
+    return dict.fromkeys(("law", "exceeded", "over", "uncertain", "sensitivity", "certificate", "equilibria",
+                          "equations", "space"), "") | {"percentiles": draws} | {
         "name": case.name, "title": case.heading, "source": case.source, "path": case.path,
         "text": case.text, "headline": printed(line), "first": printed(line), "small": "",
         "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "badge": marked,
