@@ -56,6 +56,25 @@ def test_one_link_alone_is_in_its_own_frame(stabilab):
     assert code == 2 and "--body tail: no such body; the file has chassis, abduction_1" in err
 
 
+def test_a_leg_of_shapes_has_their_moments(written_and_read):
+    """By closed forms of a capsule (two half balls and a tube) and a box, each turned along its points and moved by hand."""
+    def capsule(begin, end, r):
+        along = np.array(end, float) - begin
+        h, z = np.linalg.norm(along) / 2, along / np.linalg.norm(along)
+        tube, ball = 2000 * math.pi * r**2 * h, 4000 / 3 * math.pi * r**3
+        across = tube * (r**2 / 4 + h**2 / 3) + ball * (2 * r**2 / 5 + h**2 + 3 * r * h / 4)
+        own = across * (np.eye(3) - np.outer(z, z)) + (tube * r**2 / 2 + ball * 2 * r**2 / 5) * np.outer(z, z)
+        return moments(tube + ball, own, placed((np.array(begin) + end) / 2, Rotation.identity()))
+    foot = np.array([0.03, 0.1, 0.15])**2 / 3
+    J = (capsule((0, 0, 0), (0, 0, -1), 0.04) + capsule((0, 0, -1), (0.05, -0.08, -1.1), 0.02)
+         + capsule((0, 0, -1), (-0.6, 0, -1), 0.03)
+         + moments(3.6, 3.6 * np.diag(foot.sum() - foot), placed((-0.6, 0, -1.05), Rotation.identity())))
+    out, err = written_and_read("mjcf/ten_J2.xml")
+    for got, expected in zip(read_back(out), about_mass_centre(J)):
+        assert got == pytest.approx(expected, abs=1e-11 * np.abs(expected).max())
+    assert "those of shapes of uniform density, as MuJoCo has them: thigh, calf, foot" in err
+
+
 @pytest.mark.parametrize("name", ["3_DOF_ARM", "4_WHEELER", "ORIGINAL_3_DOF_ARM"])
 def test_a_table_of_solidworks_has_a_link_a_row(tmp_path, stabilab, name):
     """The numbers by the csv module; written out as URDF, each is the body of its row."""

@@ -5,6 +5,7 @@ from decimal import ROUND_DOWN, Decimal
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
 from stabilab import load
@@ -247,9 +248,16 @@ SDF = "<link name='{}'><inertial><mass>1</mass><inertia><ixx>3</ixx><iyy>2</iyy>
     ("<robot>\n<link></robot>", 2, "not well-formed XML"),
     ("<!DOCTYPE r [<!ENTITY a 'b'>]>\n<robot/>", 1, "a document type"),
     ("<mujoco>\n<worldbody><body name='a'/></worldbody></mujoco>", 1, "no body has an <inertial>"),
-    ("<mujoco><worldbody>\n<body name='a'><geom type='box'/></body></worldbody></mujoco>", 2, "finds its mass and moments from"),
+    ("<mujoco><worldbody>\n<body name='a'><geom mesh='m'/></body></worldbody></mujoco>", 2, "finds its mass and moments from a mesh"),
+    ("<mujoco><worldbody>\n<body name='a'><geom type='box' size='1 2'/></body></worldbody></mujoco>", 2, "expected three numbers of a"),
+    ("<mujoco><worldbody>\n<body name='a'><geom size='-1'/></body></worldbody></mujoco>", 2, "expected positive numbers"),
+    ("<mujoco><worldbody>\n<body name='a'><geom size='1' class='b'/></body></worldbody></mujoco>", 2, "no class b in <default>"),
+    ("<mujoco><worldbody>\n<body name='a'><geom size='1' fromto='0 0 0 0 0 1'/></body></worldbody></mujoco>", 2, "no two points"),
+    ("<mujoco><worldbody>\n<body name='a'><geom size='1' type='capsule' fromto='0 0 0 0 0 0'/></body></worldbody></mujoco>", 2,
+     "two points that differ"),
+    ("<mujoco><worldbody>\n<body name='a'><geom size='1' shellinertia='true'/></body></worldbody></mujoco>", 2, "moments of a shell"),
     ("<mujoco><worldbody>\n" + BODY.format("a").replace("diaginertia='3 2 4'", "") + "</worldbody></mujoco>", 2, "expected one of diag"),
-    ("<mujoco>\n<compiler inertiafromgeom='true'/><worldbody/></mujoco>", 2, "inertiafromgeom"),
+    ("<mujoco>\n<compiler boundmass='0.1'/><worldbody/></mujoco>", 2, "boundmass"),
     ("<mujoco><worldbody>\n" + BODY.format("a").replace("name='a'", "name='a' quat='1 0 0 0' euler='0 0 0'")
      + "</worldbody></mujoco>", 2, "in two ways"),
     ("<sdf>\n<model name='m'><link name='a'/></model></sdf>", 2, "no link has an <inertial>"),
@@ -410,3 +418,61 @@ def test_bodies_of_files_that_a_model_of_mujoco_includes(tmp_path, stabilab):
     (tmp_path / "parts/b.xml").unlink()
     code, _, err = stabilab("import", tmp_path / "own.xml")
     assert code == 2 and "<include> file: no file parts/b.xml, which this model includes" in err
+
+
+def of_shape(kind, size):
+    """(volume, moments per mass) of a shape by quadrature over its sections across z, ellipses or rectangles with half axes a, b."""
+    top = {"sphere": size[0], "capsule": size[0] + size[-1], "cylinder": size[-1], "ellipsoid": size[-1], "box": size[-1]}[kind]
+
+    def axes(z):
+        if kind == "capsule":
+            return [np.sqrt(max(size[0]**2 - max(abs(z) - size[1], 0)**2, 0))] * 2
+        if kind in ("sphere", "ellipsoid"):
+            return [v * np.sqrt(max(1 - (z / top)**2, 0)) for v in (size * 2 if kind == "sphere" else size)[:2]]
+        return [size[0], size[1] if kind == "box" else size[0]]
+    area, square = (4, 1 / 3) if kind == "box" else (np.pi, 1 / 4)
+
+    def integral(weight):
+        breaks = [-size[-1], size[-1]] if kind == "capsule" else None
+        return quad(lambda z: area * np.prod(axes(z)) * weight(z, *axes(z)), -top, top, points=breaks, epsabs=0, epsrel=1e-12)[0]
+    volume = integral(lambda z, a, b: 1)
+    xx, yy, zz = (integral(of) / volume for of in (lambda z, a, b: square * a * a, lambda z, a, b: square * b * b, lambda z, a, b: z * z))
+    return volume, np.diag([yy + zz, xx + zz, xx + yy])
+
+
+SHAPED = """<mujoco><compiler angle="radian" inertiagrouprange="0 3"/><default><geom density="700"/>
+<default class="thin"><geom type="capsule" size="0.1 0.4" quat="1 0 0 0.2"/><default class="tiny"><geom size="0.05" mass="3"/></default></default>
+</default><worldbody><geom type="plane" size="1 1 1"/><body name="a" childclass="thin"><joint/>
+<geom pos="0.1 0.2 0.3"/><geom class="tiny" euler="0.3 0.4 0.5"/><geom type="box" size="0.2 0.3 0.4" density="250" pos="1 0 0"/>
+<geom class="main" size="0.3" pos="0 1 0"/><geom class="main" type="sphere" size="5" group="4"/><geom class="main" mesh="m" type="mesh" mass="0"/>
+<frame pos="0 0 1" euler="0.1 0 0"><geom type="ellipsoid" size="0.2 0.3 0.5" mass="2" euler="0 0.7 0"/></frame>
+<body name="b" pos="0 0 2" childclass="main"><geom type="cylinder" size="0.2" fromto="0 0 0 0.6 0.8 0"/>
+<inertial pos="0 0 0.5" mass="4" diaginertia="1 2 2.5"/></body></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize("compiler, total", [("", None), (" inertiafromgeom='true'", None), (" settotalmass='10'", 10)])
+def test_shapes_of_mujoco_have_the_moments_of_their_volumes(tmp_path, stabilab, compiler, total):
+    """By quadrature; classes, groups and points as the file has them, set out here by hand."""
+    (tmp_path / "own.xml").write_text(SHAPED.replace(' angle="radian"', f' angle="radian"{compiler}'))
+    code, out, err = stabilab("import", tmp_path / "own.xml")
+    assert code == 0, err
+
+    def of(kind, size, at, density=None, mass=None):
+        volume, tensor = of_shape(kind, size)
+        mass = mass or density * volume
+        return moments(mass, mass * tensor, at)
+    euler, none = lambda *angles: Rotation.from_euler("XYZ", angles), Rotation.identity()
+    J = (of("capsule", [0.1, 0.4], placed([0.1, 0.2, 0.3], Rotation.from_quat([1, 0, 0, 0.2], scalar_first=True)), 700)
+         + of("capsule", [0.05, 0.4], placed([0, 0, 0], euler(0.3, 0.4, 0.5)), mass=3)
+         + of("box", [0.2, 0.3, 0.4], placed([1, 0, 0], Rotation.from_quat([1, 0, 0, 0.2], scalar_first=True)), 250)
+         + of("sphere", [0.3], placed([0, 1, 0], none), 700)
+         + of("ellipsoid", [0.2, 0.3, 0.5], placed([0, 0, 1], euler(0.1, 0, 0)) @ placed([0, 0, 0], euler(0, 0.7, 0)), mass=2))
+    if "true" in compiler:  # the shape of b in place of its inertial: of length 1 from (0, 0, 2) along (0.6, 0.8, 0)
+        turn = Rotation.align_vectors([[0.6, 0.8, 0]], [[0, 0, 1]])[0]
+        J = J + of("cylinder", [0.2, 0.5], placed([0.3, 0.4, 2], turn), 700)
+    else:
+        J = J + moments(4, np.diag([1, 2, 2.5]), placed([0, 0, 2.5], none))
+    J = J if total is None else J * total / J[3, 3]
+    for got, expected in zip(read_back(out), about_mass_centre(J)):
+        assert got == pytest.approx(expected, abs=1e-10 * np.abs(expected).max())
+    assert ("scaled to 10 kg" in err) == (total is not None) and "as MuJoCo has them: a" in err

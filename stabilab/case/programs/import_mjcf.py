@@ -3,12 +3,14 @@
 A body is placed in the one that holds it by pos and one of quat (scalar first), axisangle, xyaxes, zaxis and
 euler; its `<inertial>` has the mass centre at pos, and the moments along axes that are placed alike. Angles
 are in deg unless `<compiler angle="radian">` says otherwise; eulerseq names axes that turn with the body in
-small letters, fixed ones in capitals. Joints are where the file places the bodies (qpos0).
+small letters, fixed ones in capitals. Joints are where the file places the bodies (qpos0). Mass and moments
+of a body without `<inertial>`, and of all under `inertiafromgeom="true"`, are those of its shapes.
 """
 from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
@@ -18,25 +20,39 @@ import numpy as np
 from ...errors import printable
 from ...numbers.exact import precise, sqrt_fraction
 from ..source import LARGEST_IMPORT, source_text
-from .imported import Craft
+from .imported import Craft, listed
+from .mjcf_shapes import ORIENTATIONS, Shapes
 from .parts import ONE, cosine, of_quaternion, turn, turn_of_radians
 from .rigid_pieces import Frame, Piece, combined, free, judge_inertials, piece, tensor_of, unread
 from .xml_tree import Element, fractions, tree
 
-ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
 WORDS = {"keyframe": "positions of keyframes", "actuator": "actuators", "tendon": "tendons",
-         "equality": "constraints", "sensor": "sensors", "contact": "contacts", "geom": "shapes and meshes",
-         "plugin": "plugins"}
+         "equality": "constraints", "sensor": "sensors", "contact": "contacts", "plugin": "plugins"}
 NOT_READ = {"replicate": "copies of bodies", "attach": "bodies of other models",
             "composite": "composite bodies", "flexcomp": "flexible bodies"}
 COMPILED = "save the model as MuJoCo compiled it (mj_saveLastXML)"
 
 
 class _Compiler(NamedTuple):
-    """degrees: of angles; sequence: of Euler angles."""
+    """degrees: of angles; sequence: of Euler angles; shapes: "true", "false" or "auto", whether moments are
+    those of shapes; groups: of shapes that count; total: to which all masses are scaled, kg, or None."""
 
     degrees: bool
     sequence: str
+    shapes: str
+    groups: tuple[Fraction, ...]
+    total: Fraction | None
+
+
+class _Model(NamedTuple):
+    """compiler; shapes: of its classes; pieces, locked: bodies and joints that are read; shaped: names of
+    those whose moments are those of shapes."""
+
+    compiler: _Compiler
+    shapes: Shapes
+    pieces: list[Piece]
+    locked: list[str]
+    shaped: list[str]
 
 
 def read(text: str, path: Path, body: str | None = None) -> Craft:
@@ -47,23 +63,32 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     worlds = [*root.all("worldbody")]
     for element in (element for world in worlds for element in world.within() if element.tag in NOT_READ):
         raise element.fault(f"{NOT_READ[element.tag]} are not read: {COMPILED}")
-    pieces: list[Piece] = []
-    locked: list[str] = []
+    model = _Model(compiler, Shapes(root, COMPILED, compiler.groups), [], [], [])
+    pieces = model.pieces
     outermost: list[tuple[str, Frame, int]] = []
     for world in worlds:
-        for element, frame in _bodies(world, Frame(), compiler):
+        for element, frame, inner in _bodies(world, Frame(), "", compiler):
             first = len(pieces)
-            _walk(element, frame, compiler, pieces, locked)
+            _walk(element, frame, inner, model)
             if any(item.part.mass for item in pieces[first:]):
                 outermost.append((element.name, frame, first))
     judge_inertials(root, "body", bool(outermost), '<inertial pos="..." mass="..." diaginertia="..."/>',
-                    f"; for moments of shapes {COMPILED}")
+                    f"; for moments of meshes {COMPILED}")
     if len(outermost) > 1 and body is None:
         names = ", ".join(printable(name) for name, _, _ in outermost)
         raise free(root, f"the bodies {names}", "body")
     craft = Craft(root.attributes.get("model", "") or "model")
     unread(craft, [root], WORDS)
-    return combined(craft, pieces, outermost[0][1], "body", locked, body, path)
+    if model.shaped:
+        craft.said.append("mass and moments are those of shapes of uniform density, as MuJoCo has them: "
+                          f"{listed(model.shaped)}")
+    if compiler.total is not None:
+        scale = compiler.total / sum(item.part.mass for item in pieces)
+        pieces[:] = [item._replace(part=item.part._replace(mass=scale * item.part.mass,
+                                                          tensor=scale * item.part.tensor))
+                     for item in pieces]
+        craft.said.append(f"all masses are scaled to {float(compiler.total):.6g} kg together (settotalmass)")
+    return combined(craft, pieces, outermost[0][1], "body", model.locked, body, path)
 
 
 def _include(element: Element, folder: str, above: tuple[str, ...]) -> None:
@@ -91,47 +116,54 @@ def _compiler(root: Element) -> _Compiler:
     settings: dict[str, str] = {}
     for element in root.all("compiler"):
         settings |= element.attributes
-        if element.attributes.get("inertiafromgeom") == "true":
-            raise element.fault(f"the moments are those of shapes, which are not read: {COMPILED}",
-                                "inertiafromgeom")
         if element.attributes.get("coordinate") == "global":
             raise element.fault(f"global coordinates are not read: {COMPILED}", "coordinate")
-        for key in ("settotalmass", "balanceinertia", "boundmass", "boundinertia"):
+        for key in ("balanceinertia", "boundmass", "boundinertia"):
             value = element.attributes.get(key)
-            if value not in (None, "false", "-1", "0"):
+            if value not in (None, "false", "0"):
                 raise element.fault(f"{key} changes masses or moments when MuJoCo compiles the model: "
                                     f"{COMPILED}", key)
     sequence = settings.get("eulerseq", "xyz")
     if len(sequence) != 3 or not set(sequence) <= set("xyz") and not set(sequence) <= set("XYZ"):
         raise root.fault(f"compiler: expected eulerseq of three letters x, y, z or X, Y, Z, got {sequence}")
-    return _Compiler(settings.get("angle", "degree") != "radian", sequence)
+    numbers = replace(root, attributes={"inertiagrouprange": "0 5", "settotalmass": "-1", **settings})
+    groups = fractions(numbers.attribute("inertiagrouprange", 2))
+    total, = fractions(numbers.attribute("settotalmass", 1))
+    return _Compiler(settings.get("angle", "degree") != "radian", sequence,
+                     settings.get("inertiafromgeom", "auto"), (groups[0], groups[1]),
+                     total if total > 0 else None)
 
 
-def _bodies(holder: Element, frame: Frame, compiler: _Compiler) -> Iterator[tuple[Element, Frame]]:
-    """(body, its frame) of the bodies right inside an element, those in <frame> too."""
+def _bodies(holder: Element, frame: Frame, inner: str, compiler: _Compiler
+            ) -> Iterator[tuple[Element, Frame, str]]:
+    """(body, its frame, the class of its shapes that name none) of the bodies right inside an element, those
+    in <frame> too."""
     for child in holder.children:
-        if child.tag == "body":
-            yield child, frame.then(_frame(child, compiler))
-        elif child.tag == "frame":
-            yield from _bodies(child, frame.then(_frame(child, compiler)), compiler)
+        if child.tag in ("body", "frame"):
+            at, own = frame.then(_frame(child, compiler)), child.attributes.get("childclass", inner)
+            if child.tag == "body":
+                yield child, at, own
+            else:
+                yield from _bodies(child, at, own, compiler)
 
 
-def _walk(element: Element, frame: Frame, compiler: _Compiler, pieces: list[Piece],
-          locked: list[str]) -> None:
-    """Collect a body and those inside it."""
-    locked += [joint.name or f"of {element.name or 'a body'}" for joint in element.all("joint")
-               if joint.attributes.get("type") != "free"]
+def _walk(element: Element, frame: Frame, inner: str, model: _Model) -> None:
+    """Collect a body and those inside it. inner: the class of its shapes that name none."""
+    compiler, pieces = model.compiler, model.pieces
+    model.locked.extend(joint.name or f"of {element.name or 'a body'}" for joint in element.all("joint")
+                        if joint.attributes.get("type") != "free")
     inertial = element.one("inertial")
     name = element.name or f"body in line {element.line}"
-    if inertial is None:
-        if any(child.tag == "geom" for child in element.children):
-            raise element.fault(f"{name}: no <inertial>; MuJoCo finds its mass and moments from its shapes, "
-                                f"which are not read: add <inertial>, or {COMPILED}")
-        pieces.append(piece(name, "0", tensor_of(["0"] * 6), frame, frame, element))
-    else:
-        pieces.append(_piece(name, inertial, frame, compiler))
-    for child, inner in _bodies(element, frame, compiler):
-        _walk(child, inner, compiler, pieces, locked)
+    shaped = None
+    if compiler.shapes == "true" or inertial is None and compiler.shapes != "false":
+        shaped = model.shapes.piece(name, element, frame, inner, lambda child: _frame(child, compiler))
+    if shaped is not None:
+        model.shaped.append(name)
+    elif inertial is not None:
+        shaped = _piece(name, inertial, frame, compiler)
+    pieces.append(shaped or piece(name, "0", tensor_of(["0"] * 6), frame, frame, element))
+    for child, at, own in _bodies(element, frame, inner, compiler):
+        _walk(child, at, own, model)
 
 
 def _piece(name: str, inertial: Element, frame: Frame, compiler: _Compiler) -> Piece:
