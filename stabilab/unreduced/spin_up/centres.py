@@ -43,222 +43,26 @@ nothing like g Im eta^2 r Re eta^2 but Im eta^4: the products are written down b
 
 Equatorial spin-up (D2 = D3 of the body, cyclic triple (2, 3, 1), the wheel's transverse part along the form's
 axis 1): d2 = 0, q = s l1 is constant, l2 = 0 and n3 = 0; every term of the rate of the amplitude that is left
-must fall faster than 1/x, and its integral is infinite where one does not (`kernel.tail`).
-
-Elimination: a corrected energy and a corrected amplitude, to any order, take away what oscillates about the
-centre.
-
-Quantities are sums of c zeta^j zeta*^k p^(-a/4) q^(-b/4), many terms at a time in arrays (`Terms`); p and q
-are linear in the spin x. Along the motion, with `Algebra`'s names,
-
-    zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + x' carried + drift,        x' = x_rate,
-    d/dt  = i Om (zeta d - zeta* d*) + x' [d/dx + along carried] + along drift.
-
-An oscillating term c zeta^j zeta*^k f(x) of a rate (j != k) is taken away by adding -c/(i Om (j - k)) zeta^j
-zeta*^k f(x) to the quantity: its rate then holds -c zeta^j zeta*^k f(x) and the price, what the rest of d/dt
-makes of the added term, smaller by at least one power of the spin. What does not oscillate (j = k) stays.
-Level of a term: four times the power of 1/x with which it falls.
-
-Rounding. Beside each coefficient goes its majorant, formed by the same operations on sizes, without
-subtraction: a coefficient is a sum of products, its majorant the sum of the same products' sizes. Each
-product is formed by fewer than 2^14 roundings (orders below 40: some ten to a level, and sums of fewer than
-300 terms at each), so a coefficient in doubles errs by less than 2^-38 of its majorant. `sizes` gives |c| +
-ROUNDING majorant, ROUNDING = 2^-32, which covers that 64 times over."""
+must fall faster than 1/x, and its integral is infinite where one does not (`kernel.tail`)."""
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
+from .elimination import (
+    Algebra,
+    Corrected,
+    Elimination,
+    Shape,
+    Terms,
+    gathered,
+    packed,
+    product,
+    terms_of,
+)
 from .form import NormalForm, over_root
-
-# --- Elimination of what oscillates
-ROUNDING = 2.0**-32
-_A, _K, _J = 1 << 16, 1 << 32, 1 << 40
-_MIDDLE = (1 << 15) + (1 << 15) * _A
-
-
-def packed(j: int, k: int, a: float, b: float):
-    """(j, k, a, b) in one integer, linearly: the key of a product is the sum of the keys. j, k below 256, a
-    and b between -2^15 and 2^15."""
-    return j * _J + k * _K + a * _A + b
-
-
-@dataclass(slots=True, eq=False)  # thousands are made for each scene
-class Terms:
-    """keys: (n,) integers, no two alike; c: (n,) coefficients; m: (n,) what the sizes of all that was added
-    up in c come to."""
-
-    keys: np.ndarray
-    c: np.ndarray
-    m: np.ndarray
-
-    @property
-    def powers(self):
-        """(j, k, a, b), (n,) each."""
-        keys = self.keys + _MIDDLE
-        return keys >> 40, keys >> 32 & 255, (keys >> 16 & _A - 1) - (1 << 15), (keys & _A - 1) - (1 << 15)
-
-    @property
-    def apart(self):
-        """j - k, (n,)."""
-        keys = self.keys + _MIDDLE
-        return (keys >> 40) - (keys >> 32 & 255)
-
-    def __getitem__(self, rows: np.ndarray):
-        return Terms(self.keys[rows], self.c[rows], self.m[rows])
-
-    def times(self, factor: complex | np.ndarray):
-        """Each coefficient times a number or an array of numbers."""
-        return Terms(self.keys, self.c * factor, self.m * np.abs(factor))
-
-    def over(self, divisors: np.ndarray):
-        """Each coefficient over a number of its own."""
-        return Terms(self.keys, self.c / divisors, self.m / np.abs(divisors))
-
-    def moved(self, key: int):
-        """Times one monomial."""
-        return Terms(self.keys + key, self.c, self.m)
-
-    def conjugate(self):
-        """The conjugate of the sum: zeta^j zeta*^k becomes zeta^k zeta*^j."""
-        return Terms(self.keys - self.apart * (_J - _K), self.c.conjugate(), self.m)
-
-    def half(self):
-        """Of a real sum, whose terms come with their conjugates, those with j >= k."""
-        return self[self.apart >= 0]
-
-    def whole(self):
-        """The real sum of which `half` is left."""
-        return gathered(self, self[self.apart > 0].conjugate())
-
-    def real(self):
-        """The half of the sum and its conjugate, like keys not yet added up."""
-        apart = self.apart
-        keys = self.keys - np.minimum(apart, 0) * (_J - _K)
-        mirrored = self.c.conjugate()
-        c = np.where(apart < 0, mirrored, np.where(apart > 0, self.c, self.c + mirrored))
-        return Terms(keys, c, np.where(apart == 0, self.m + self.m, self.m))
-
-
-def terms_of(table: dict) -> Terms:
-    """Terms from {(j, k, a, b): c}."""
-    c = np.array(list(table.values()), complex)
-    return Terms(np.array([packed(*key) for key in table], np.int64), c, np.abs(c))
-
-
-def joined(parts: Sequence[Terms]) -> Terms:
-    """The sum of sums of terms, like keys not yet added up."""
-    return Terms(np.concatenate([part.keys for part in parts]), np.concatenate([part.c for part in parts]),
-                 np.concatenate([part.m for part in parts]))
-
-
-def gathered(*parts: Terms) -> Terms:
-    """The sum of sums of terms."""
-    parts = tuple(part for part in parts if len(part.keys))
-    if not parts:
-        return terms_of({})
-    full = joined(parts)
-    order = full.keys.argsort(kind="stable")
-    keys = full.keys[order]
-    new = np.ones(len(keys), bool)
-    np.not_equal(keys[1:], keys[:-1], out=new[1:])
-    first = new.nonzero()[0]
-    return Terms(keys[first], np.add.reduceat(full.c[order], first), np.add.reduceat(full.m[order], first))
-
-
-def product(item: Terms, other: Terms) -> Terms:
-    """The product of two sums of terms, like keys not yet added up."""
-    return Terms((item.keys[:, None] + other.keys).ravel(), (item.c[:, None] * other.c).ravel(),
-                 (item.m[:, None] * other.m).ravel())
-
-
-def sizes(terms: Terms):
-    """(n,) bounds of the true coefficients' sizes."""
-    return np.abs(terms.c) + ROUNDING * terms.m
-
-
-@dataclass(frozen=True)
-class Algebra:
-    """What the time derivative of a form is made of.
-
-    lift: i/om; turn: (a, b) of the turning rate Om = om p^(-a/4) q^(-b/4); fall: the factors of d/dx,
-    -slope/4 of p and of q; x_rate: terms of x'; carried: terms of zeta' over x'; drift: its other terms;
-    weights: what p and q count in the level, 0 for a q that is constant.
-    """
-
-    lift: complex
-    turn: tuple
-    fall: tuple
-    x_rate: Terms
-    carried: Terms
-    drift: Terms
-    weights: tuple = (1, 1)
-
-    def levels(self, terms: Terms):
-        """Four times the powers of 1/x with which terms fall."""
-        _, _, a, b = terms.powers
-        return self.weights[0] * a + self.weights[1] * b
-
-    def rest_of_rate(self, terms: Terms) -> Terms:
-        """The rate of a quantity apart from what turning makes of it, like keys not yet added up."""
-        moved = product(gathered(self.slope(terms), *_along(terms, self.carried)), self.x_rate)
-        return joined([moved, *_along(terms, self.drift)])
-
-    def slope(self, terms: Terms) -> Terms:
-        """d/dx of terms at constant zeta."""
-        _, _, a, b = terms.powers
-        return joined([terms.moved(packed(0, 0, *step)).times(n * fall)[n != 0]
-                       for step, fall, n in (((4, 0), self.fall[0], a), ((0, 4), self.fall[1], b)) if fall])
-
-    def removed(self, terms: Terms) -> Terms:
-        """What is added to a quantity to take oscillating terms out of its rate."""
-        return terms.moved(-packed(0, 0, *self.turn)).times(self.lift).over(terms.apart)
-
-
-def _along(terms: Terms, rate: Terms) -> list[Terms]:
-    """The derivative of terms along zeta' = rate."""
-    if not len(rate.keys):
-        return []
-    j, k, _, _ = terms.powers
-    return [product(terms.moved(-packed(*step)).times(n)[n != 0], toward)
-            for step, n, toward in (((1, 0, 0, 0), j, rate), ((0, 1, 0, 0), k, rate.conjugate()))]
-
-
-@dataclass(frozen=True)
-class Corrected:
-    """What was added to a quantity, and what is left of its rate (of an energy: without the drive)."""
-
-    added: Terms
-    rate: Terms
-
-
-class Elimination:
-    """What oscillates taken out of a rate, which is real: its terms come with their conjugates, so that half
-    of them need be followed. A higher order goes on where a lower one has ended."""
-
-    def __init__(self, algebra: Algebra, rate: Terms):
-        self.algebra = algebra
-        # order, what was added, what is left; replaced as a whole, for threads may share it
-        self.begun = self.reached = -1, tuple[Terms, ...](), rate.half()
-
-    def to(self, order: int) -> Corrected:
-        """Everything oscillating up to x^-order."""
-        reached = self.reached
-        _, parts, rate = reached if reached[0] <= order else self.begun
-        while True:
-            levels = self.algebra.levels(rate)
-            oscillating = (rate.apart != 0) & (levels <= 4 * order)
-            if not oscillating.any():
-                break
-            now = oscillating & (levels == levels[oscillating].min())
-            parts = *parts, self.algebra.removed(rate[now])
-            rate = gathered(rate[~now], self.algebra.rest_of_rate(parts[-1]).real())
-        self.reached = order, parts, rate
-        return Corrected(gathered(*parts).whole(), rate.whole())
 
 
 # --- The fixed and the moving centre
@@ -284,7 +88,7 @@ class FixedCentre:
     def energy(self, order: int) -> Corrected:
         """D1 X^2/2, corrected; the drive M1 X + m* is left out of its rate."""
         result = self._energy.to(order)
-        return Corrected(result.added, result.rate[result.rate.keys != packed(0, 0, 0, 0)])
+        return Corrected(result.added, result.rate.part(_varies))
 
     @cached_property
     def _energy(self) -> Elimination:
@@ -304,7 +108,7 @@ class FixedCentre:
                                    (0, 1, 4, 0): -1j * f.mu / f.om}))
         weight = terms_of(_present({(1, 1, 4, 0): f.drag / f.M1}))
         rate = product(first.moved(packed(0, 0, 4, 0)).times(-1), algebra.x_rate)
-        return first, Elimination(algebra, gathered(rate, algebra.rest_of_rate(weight)))
+        return first, Elimination(algebra, gathered(rate, *algebra.rest_of_rate(weight)))
 
     def transverse(self, A: float, z: float):
         """((low, high), (low, high)) of omega2 and omega3 of the form while |zeta| <= A."""
@@ -394,13 +198,13 @@ class MovingCentre:
         """D1 M1 times the rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each bracket's products of
         oscillating factors written out, without the mean part."""
         G0, swing, pull, k, r, f = map(terms_of, (self.G0, self.swing, self.pull, self.k, self.r, self.f))
-        k, f = (Terms(part.keys, part.c.conjugate(), part.m) for part in (k, f))
+        k, f = (Terms(part.shape, part.c.conjugate(), part.m) for part in (k, f))
         # g Im eta^2 Re eta^2 = (g/2) Im eta^4
         twist = terms_of({(4, 0, 0, 0): -0.25j * self.g, (0, 4, 0, 0): 0.25j * self.g})
         inner = [product(G0, _real(r, 2)), product(twist, r), product(pull, _real(r, 2)),
                  product(G0, _real(f, 1)),
                  product(swing, _real(f, 1)), _real(product(k, f), 2).times(0.5)]
-        slope = self.algebra.slope(G0)
+        slope = gathered(*self.algebra.slope(G0))
         around = product(product(gathered(swing, pull), slope), terms_of({(1, 1, 0, 0): 1.0}))
         rate = gathered(product(G0.times(2.0), gathered(*inner)), around).times(1 / (self.M1 * self.D1))
         return Elimination(self.algebra, rate)
@@ -420,9 +224,12 @@ class MovingCentre:
 
 def _real(terms: Terms, n: int) -> Terms:
     """Re(terms eta^n) of terms without eta."""
-    _, _, a, b = terms.powers
-    return gathered(Terms(packed(n, 0, a, b), terms.c / 2, terms.m / 2),
-                    Terms(packed(0, n, a, b), terms.c.conjugate() / 2, terms.m / 2))
+    half = terms.times(0.5)
+    return gathered(half.moved(packed(n, 0, 0, 0)), half.conjugate().moved(packed(0, n, 0, 0)))
+
+
+def _varies(shape: Shape) -> np.ndarray:
+    return shape.keys != packed(0, 0, 0, 0)
 
 
 def moving_centre(form, scene) -> MovingCentre | None:

@@ -65,7 +65,8 @@ from ...numbers.vectors import dot
 from ...orbit.result import Fate
 from ...reasons import Reasoned, Sentence
 from . import kernel, steps
-from .centres import FixedCentre, MovingCentre, Terms, moving_centre, sizes
+from .centres import FixedCentre, MovingCentre, moving_centre
+from .elimination import Shape, Terms, sizes, worked_out
 from .form import forms_of
 from .result import WIDER, SpinUp, SteadyTrap
 
@@ -278,27 +279,40 @@ class Certifier:
 def _sums(terms: Terms, coefficients: np.ndarray, parts: int, shift: Sequence[int] = (0, 0)):
     """(exponents (2, columns), table (degrees, columns)) of a sum of coefficients by degree and exponents; of
     no terms one that is 0."""
-    j, k, a, b = terms.powers
-    exponents, column = _distinct((a + shift[0]) * parts // 4, (b + shift[1]) * parts // 4)
-    table = np.zeros((1 + int((j + k).max(initial=0)), exponents.shape[1]))
-    np.add.at(table, (j + k, column), coefficients)
-    return exponents, table
+    exponents, places, degrees = worked_out(_columns, terms.shape, parts, *shift)
+    size = degrees * exponents.shape[1]
+    return exponents, np.bincount(places, coefficients, size).reshape(degrees, -1)
+
+
+def _columns(shape: Shape, parts: int, up: int, over: int):
+    """(exponents (2, columns); the entry of the flat table of each term; degrees)."""
+    j, k, a, b = shape.powers
+    exponents, column = _distinct((a + up) * parts // 4, (b + over) * parts // 4)
+    degrees = 1 + int((j + k).max(initial=0))
+    return exponents, (j + k) * exponents.shape[1] + column, degrees
 
 
 def _quantity(terms: Terms, parts: int):
     """What is added to a quantity, as the kernel has it: exponents (2, columns), sums of sizes, of majorants
     (degrees, columns), real and imaginary parts of the terms with j >= k (2, columns, powers), j and k (2,
     powers). Terms come with their conjugates."""
-    j, k, a, b = terms.powers
     exponents, sums = _sums(terms, sizes(terms), parts)
     _, largest = _sums(terms, terms.m, parts)
-    half, (_, column) = j >= k, _distinct(a, b)
-    degrees, place = _distinct(j[half], k[half])
-    values = np.zeros((2, exponents.shape[1], degrees.shape[1]))
-    c = np.where(j == k, 1, 2)[half] * terms.c[half]
-    for part, numbers in zip(values, (c.real, c.imag)):
-        np.add.at(part, (column[half], place), numbers)
+    half, twice, places, degrees = worked_out(_powers, terms.shape)
+    c = twice * terms.c[half]
+    size = exponents.shape[1] * degrees.shape[1]
+    values = np.stack([np.bincount(places, numbers, size).reshape(exponents.shape[1], -1)
+                       for numbers in (c.real, c.imag)])
     return exponents, sums, largest, values, degrees
+
+
+def _powers(shape: Shape):
+    """Of the terms with j >= k: (which they are; 2 beside a conjugate, 1 where j = k; the entry of the flat
+    table of each; distinct j and k (2, powers))."""
+    j, k, a, b = shape.powers
+    half, (_, column) = np.flatnonzero(j >= k), _distinct(a, b)
+    degrees, place = _distinct(j[half], k[half])
+    return half, np.where(j == k, 1, 2)[half], column[half] * degrees.shape[1] + place, degrees
 
 
 PAIR = 1 << 20  # two whole numbers of less than half of it are one

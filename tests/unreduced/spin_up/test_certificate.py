@@ -5,6 +5,7 @@ import random
 import numpy as np
 import pytest
 
+from stabilab.unreduced.spin_up import elimination
 from stabilab.unreduced.spin_up.centres import FixedCentre, moving_centre
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.form import forms_of
@@ -24,6 +25,24 @@ def places(field, states):
     rho = (q / p)**0.25
     u, v = w[:, 1] - field.s * (l2 * x - M3) / q, w[:, 2] - field.s * (l3 * x + M2) / p
     return x, r2 * rho * u + 1j * field.s * r3 / rho * v
+
+
+def tables(scene):
+    """Each number of the tables of a scene's fields, in bytes."""
+    form = forms_of(scene)[0]
+    fields = FixedCentre(form), moving_centre(form, scene)
+    return [np.asarray(item).tobytes() for field in fields for item in Certifier(field, (4, 6)).numbers]
+
+
+def test_a_second_scene_works_out_no_exponents_and_forgetting_them_changes_no_number(monkeypatch):
+    first, second = (random_scene(random.Random(n), 1.0) for n in (3, 4))
+    tables(first)
+    count = len(elimination._WORKED_OUT)
+    numbers = tables(second)
+    assert len(elimination._WORKED_OUT) == count and numbers != tables(first)
+    monkeypatch.setattr(elimination, "_WORKED_OUT", {})
+    monkeypatch.setattr(elimination, "MAX_BYTES", 100_000)  # forgotten again and again
+    assert tables(second) == numbers and 0 < len(elimination._WORKED_OUT) < count
 
 
 def test_worked_example_is_trapped_within_the_printed_constants():
