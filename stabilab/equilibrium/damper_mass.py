@@ -39,7 +39,7 @@ from .torque_free import CASIMIR
 RELAXED = Sentence(
     "damper-mass-relaxed",
     "known are the rotations about principal axes that leave the spring of the damper's mass relaxed; those "
-    "that displace the mass are not among these")()
+    "that displace the mass are not among these: flat-spin has all at one |H|")()
 LEAST = Verdict("stable", Sentence(
     "damper-mass-least",
     "asymptotically stable at its |H|: the energy of body, mass and spring has a strict minimum at constant "

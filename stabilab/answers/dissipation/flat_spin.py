@@ -45,10 +45,10 @@ from ...reasons import Angle, Axis, Quantity, Reason, Reasoned, Sentence
 from ...representation import Answer, Compared
 from ..caveats import caveats_of
 from ..passage import MOVED, WIDER
-from . import gyrostat
+from . import gyrostat, mass
 from .changes import Span, spans_of
 from .gyrostat import GyrostatSpin
-from .rotations import Rotations, rotations_at
+from .rotations import Rotations, free_only, rotations_at
 from .spinner import ENDED, Run, Spinner, after_the_separatrix
 from .times import Time
 
@@ -169,13 +169,24 @@ def flat_spin(case: Given, within: Amount = "5 deg", *, momentum: Amount | None 
         raise InputError('within: expected an angle from 0.01 deg to below 90 deg, such as "5 deg", got '
                          f"{math.degrees(angle):.6g} deg")
     if momentum is not None:
-        return rotations_at(as_case(case, state, span), in_si(momentum, MOMENTUM, "momentum"))
+        return at_momentum(as_case(case, state, span), in_si(momentum, MOMENTUM, "momentum"))
     return any_of_case(with_start(as_case(case, state, span), "flat_spin"), angle)
+
+
+def at_momentum(case: Case, size: Fraction) -> Rotations:
+    """All rotations of a case at |H| = size, N m s, those that displace a damper's mass among them."""
+    if size > 0:
+        free_only(case)
+        if (result := mass.rotations_with_mass(case, size)) is not None:
+            return result
+    return rotations_at(case, size)
 
 
 def any_of_case(case: Case, angle: float) -> FlatSpin | GyrostatSpin:
     """The same of a case and an angle in rad, with wheels or without."""
     scene: Any = case.scene
+    if (result := mass.of_case(case)) is not None:
+        return result
     wheels = case.variables == "physical" and any(scene.vector("gyrostat"))
     return gyrostat.of_case(case, angle) if wheels else of_case(case, angle)
 

@@ -262,12 +262,13 @@ def _timed(spinner: Gyrostat, result: GyrostatSpin) -> GyrostatSpin:
     elif result.barrier is not None:
         result = replace(result, reachable=(result.end,))
     name, times = ("settles", None) if result.end is None else _settled(spinner, result, runs)
-    found: dict[str, Any] = {"crosses": _agreed(crossed), name: _agreed(times)}
+    found: dict[str, Any] = {"crosses": agreed(crossed), name: agreed(times)}
     return replace(result, steps=runs[0].steps, **found,
                    caveats=caveats_of(spinner.scene, validity=runs[0].validity))
 
 
-def _agreed(times: list[float] | None) -> Time | None:
+def agreed(times: list[float] | None) -> Time | None:
+    """The time of the first of two runs, known to how far they are apart."""
     return None if times is None else Time(times[0], WIDER * abs(times[0] - times[1]) + 1e-15 * times[0])
 
 

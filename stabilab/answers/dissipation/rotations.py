@@ -16,7 +16,7 @@ from ...errors import InputError
 from ...numbers.exact import floats
 from ...numbers.vectors import Exact3, Float3
 from ...physics.effects.base import effect_words
-from ...physics.scene import Scene
+from ...physics.scene import Scene, slices
 from ...physics.to_numpy import to_numpy
 from ...reasons import Reasoned, Sentence
 from ...representation import Answer, Compared
@@ -43,7 +43,8 @@ class SteadyRotation:
     wheels without the wheels' own. with_losses, without_losses: "stable" or "unstable", of a circle with
     losses as a set. axis: 1 to 3, about which a circle lies, else 0; everywhere: whether every direction of H
     is one. growth, decay: s, time constants of the fastest growing, or of the slowest fading departure at
-    this |H|, of all parts of the scene; None where it has none.
+    this |H|, of all parts of the scene; None where it has none. displacement: of a damper's mass along its
+    line, m; None without one. With such a mass stability may be "undecided", and the nature "degenerate".
     """
 
     nature: str
@@ -56,6 +57,7 @@ class SteadyRotation:
     everywhere: bool = False
     growth: float | None = None
     decay: float | None = None
+    displacement: float | None = None
 
 
 @dataclass(frozen=True)
@@ -146,12 +148,16 @@ def _described(scene: Scene, rotation: Rotation) -> SteadyRotation:
         growth if rotation.nature != MINIMUM else None, decay if rotation.nature == MINIMUM else None)
 
 
-def constants(scene: Scene, rates: Float3, still: int) -> tuple[float | None, float | None]:
+def constants(scene: Scene, rates: Float3, still: int, displacement: float | None = None
+              ) -> tuple[float | None, float | None]:
     """(time constant of the fastest growth, of the slowest decay), s, by the eigenvalues at a rotation but
-    for so many that are zero: |H| may be another, and the rotation another of its circle."""
+    for so many that are zero: |H| may be another, and the rotation another of its circle. displacement: of a
+    damper's mass, m."""
     system = to_numpy(scene)
     at = np.zeros(len(system.equations.state))
     at[:3] = rates
+    if displacement is not None:
+        at[slices(scene.blocks)["damper_mass"].start] = displacement
     values = sorted(map(complex, np.linalg.eigvals(system.jacobian(at))), key=abs)[still:]
     largest = max((value.real for value in values), default=0.0)
     if abs(largest) <= NO_GROWTH * max(map(abs, values), default=0.0):

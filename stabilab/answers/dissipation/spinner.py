@@ -54,7 +54,8 @@ class Spinner:
     order: tuple[int, int, int]
 
     @classmethod
-    def of(cls, case: Any) -> Self:
+    def of(cls, case: Any, displaced: bool = False) -> Self:
+        """displaced: whether a damper may have a mass that rotations displace."""
         scene = case.scene
         if case.state is None or case.variables != "physical":
             raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
@@ -72,11 +73,11 @@ class Spinner:
                      "ever: give [effects.viscous_damper], with inertia and coefficient; its rotations at "
                      'one angular momentum: --momentum "100 N m s"')
         D = scene.body.exact
-        if D[0] == D[1] == D[2] and not wheel:
+        if D[0] == D[1] == D[2] and not wheel and not displaced:
             raise InputError("flat-spin: all moments are equal: every axis is a major axis")
         parts = content(scene)
-        if parts is not None and parts.movers and (parts.displaced or parts.rest_of_moments <= 0
-                                                   or not parts.all_is_damped and not parts.kappa):
+        if not displaced and parts is not None and parts.movers and (
+                parts.displaced or parts.rest_of_moments <= 0 or not parts.all_is_damped and not parts.kappa):
             raise InputError(_not_known_of(parts))
         if 2 * max(D) > sum(D) and scene.effect("liquid_cavity"):
             raise InputError("flat-spin: a liquid takes energy for the moments of a rigid body alone, and no "

@@ -10,11 +10,13 @@ from ..units import DIGITS, SHORT, SYSTEMS, Units, number
 from .motion import in_file, row
 
 NATURES = {"minimum": "least energy", "maximum": "most energy", "saddle": "saddle of the energy",
-           "inflection": "inflection of the energy"}
+           "inflection": "inflection of the energy", "degenerate": "a flat place of the energy"}
 # by (with losses, without)
 STABILITIES = {("stable", "stable"): "stable", ("unstable", "unstable"): "unstable",
                ("stable", "unstable"): "stable with losses",
-               ("unstable", "stable"): "stable only without losses"}
+               ("unstable", "stable"): "stable only without losses",
+               ("unstable", "undecided"): "unstable with losses"}
+UNKNOWN = "of undecided stability"
 
 
 def rotations_dict(case, result: Rotations) -> dict:
@@ -41,7 +43,8 @@ def _rotation(case, item: SteadyRotation) -> dict:
     return {"nature": item.nature, "rates": in_file(case, item.rates), "momentum": in_file(case,
             item.momentum), **values_of(item, "energy with_losses without_losses"),
             "circle_about": item.axis or None, "everywhere": item.everywhere,
-            "growth_time": item.growth, "decay_time": item.decay}
+            "growth_time": item.growth, "decay_time": item.decay,
+            **({} if item.displacement is None else values_of(item, "displacement"))}
 
 
 def _threshold(case, item: WheelThreshold) -> dict:
@@ -109,7 +112,9 @@ def _line(case, item: SteadyRotation, units: Units) -> str:
     if item.axis:
         rates = f"a circle about {axes_of(case).short(item.axis)} through {rates}"
     parts = [rates, f"{number(item.energy, DIGITS)} J", f"{NATURES[item.nature]}, "
-             f"{STABILITIES[item.with_losses, item.without_losses]}"]
+             f"{STABILITIES.get((item.with_losses, item.without_losses), UNKNOWN)}"]
+    if item.displacement is not None:
+        parts.insert(1, f"mass at {number(item.displacement, DIGITS)} m")
     for verb, value in (("grows", item.growth), ("decays", item.decay)):
         if value is not None:
             parts.append(f"a departure {verb} e-fold in {units.time(value, SHORT)}")
