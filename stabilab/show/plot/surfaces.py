@@ -153,6 +153,7 @@ def _broadside(plane, y, axis):
 # --- The sphere of the angular momentum of a body that no torque acts on, its polhodes and separatrices
 POLHODES = 13  # lines of other energies
 SPHERE_GRID = (361, 721)  # latitudes, longitudes
+FAR = {"alpha": 0.45, "markersize": 5.5}  # of a point behind the sphere
 LIFT = 1.002  # of a line off the sphere
 EXTREME = 1e-6  # of the range of energies: so near to its end a value is no saddle's
 SAME = 1e-9  # of the energies: those of one saddle, found twice
@@ -186,7 +187,7 @@ def momentum_sphere(item: Subject) -> SurfaceLines:
     for kind, points in circles:
         result.add(LIFT * points, CURVES[kind], points)
     result.add(LIFT * route, style.MEANING["this motion"], route)
-    result.marks = ([(LIFT * H[None], EQUILIBRIUM_LOOKS[kind]) for kind, H in rest if H @ sight(view) >= 0]
+    result.marks = ([(LIFT * H[None], _seen(EQUILIBRIUM_LOOKS[kind], H, view)) for kind, H in rest]
                    + [(LIFT * route[:1], style.MARKER["start"])])
     result.rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
                   *([("separatrix", style.MEANING["separatrix"])] if saddles else []),
@@ -256,13 +257,18 @@ def losing_sphere(item: Subject) -> SurfaceLines:
             shown.append((f"{name}, a circle", circle))
         elif (name, mark) not in shown:
             shown.append((name, mark))
-        if not rotation.axis and H @ sight(view) >= 0:
-            result.marks.append((LIFT * H[None], mark))
+        if not rotation.axis:
+            result.marks.append((LIFT * H[None], _seen(mark, H, view)))
     result.marks.append((LIFT * route[:1], style.MARKER["start"]))
     result.rows = [("this motion", ROUTE), ("start", style.MARKER["start"]),
                    *([("level of a saddle", style.MEANING["separatrix"])] if passes else []),
                    *([] if flat else [("other energies", style.MEANING["level"])]), *shown]
     return result
+
+
+def _seen(mark: dict[str, Any], H: np.ndarray, view: tuple[float, float]) -> dict[str, Any]:
+    """The look of a point of the sphere, pale where it lies behind."""
+    return mark if H @ sight(view) >= 0 else mark | FAR
 
 
 def _sphere_of(item: Subject) -> MomentumSphere:
@@ -342,8 +348,8 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
     minimum. Under a torque on a principal axis (or of scaled variables, which know no
     momentum): the cylinder whose base is the curve that the two rates across that axis cannot leave (circle,
     hyperbola or parabola); the height is the rate about the axis, and the phase plane is wrapped round it.
-    Lines behind the surface are pale. Raises InputError where no such surface is known; it names the kinds of
-    plot that there are.
+    What lies behind the surface is pale, lines that are to be seen whole are dashed there. Raises InputError
+    where no such surface is known; it names the kinds of plot that there are.
     """
     item = subject(case, state)
     subjects.check("sphere", item)
@@ -355,7 +361,7 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
             behind = BEHIND if look is style.MEANING["level"] else HIDDEN
             in_space.line(target, points, look if front else look | behind, zorder=6 if front else 3)
         for points, look in result.marks:
-            in_space.line(target, points, look, zorder=8)
+            in_space.line(target, points, look, zorder=4 if FAR.items() <= look.items() else 8)
         in_space.furnish(target, result.box, result.labels, result.view)
         return canvas.explained(target, result.rows if legend else [], ax is None, item.heading, result.title,
                                 notes=canvas.notes(item, measures(item, units), answered=False))
