@@ -30,6 +30,13 @@ def test_halving_ends_at_the_root_to_the_last_places_of_the_larger_end(name):
     assert halved(f, low, high) == pytest.approx(root, abs=4 * EPS * max(abs(low), abs(high)))
 
 
+@pytest.mark.parametrize("falls", [1, -1])
+@pytest.mark.parametrize("root", [0.0, 1.0])
+def test_halving_finds_a_root_at_an_end(root, falls):
+    """x - root is 0 at root alone."""
+    assert halved(lambda x: falls * (x - root), 0.0, 1.0) == pytest.approx(root, abs=4 * EPS)
+
+
 def solved(name, start, enough=2 * EPS):
     f, slope, (lo, hi), root, rising, _ = FUNCTIONS[name]
     asked = []
