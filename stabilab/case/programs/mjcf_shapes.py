@@ -127,7 +127,7 @@ def _between(geom: Element) -> Frame:
     helper = np.array([Fraction(1), Fraction(0), Fraction(0)] if abs(z[0]) < abs(z[1]) else
                       [Fraction(0), Fraction(1), Fraction(0)])
     x = np.cross(helper, z)
-    x = x / sqrt_fraction(x @ x)  # any: the shape is the same about its third axis
+    x = x / sqrt_fraction(sum((v * v for v in x), Fraction(0)))  # any: the shape is the same about its third axis
     return Frame(np.array([x, np.cross(z, x), z]), middle)
 
 

@@ -84,8 +84,8 @@ def whole(item: Subject) -> tuple[np.ndarray, np.ndarray]:
     """Times (n,) and rates (n, 3) along the principal axes of a burn, from its start past its last closing.
     Raises InputError as `rates` does."""
     burning: Any = item.burning
-    chain, answer = Chain(burning), burn(burning)
-    return _run(chain, answer, _end(item, answer))
+    answer: Any = item.burned
+    return _run(Chain(burning), answer, _end(item, answer))
 
 
 def _run(chain: Chain, answer: Burned, end: float) -> tuple[np.ndarray, np.ndarray]:
