@@ -368,7 +368,7 @@ def test_equilibria_are_found_at_rates_of_any_size(scale):
     size = math.hypot(3.25 * 0.375, 3.0 * 0.25, 1.0) * scale
     drawn = surfaces.momentum_sphere(item)
     points = np.array([point[0] for point, look in drawn.marks[:-1]]) / size  # the last is the start
-    assert len(points) == 3 and np.abs(np.sort(np.abs(points), axis=1) - [0, 0, surfaces.LIFT]).max() < 1e-9
+    assert len(points) == 6 and np.abs(np.sort(np.abs(points), axis=1) - [0, 0, surfaces.LIFT]).max() < 1e-9
     assert {"stable equilibrium", "unstable equilibrium"} <= {text for text, _ in drawn.rows}
     curves = space.curves_of(stabilab.equilibria(item.scene), space.Box((0.0,) * 3, (2 * scale,) * 3))
     axes = sorted((int(np.abs(line[0]).argmax()), text.split()[0], np.abs(line).max() > 1.9 * scale)

@@ -165,9 +165,9 @@ def test_a_card_of_a_burn_shows_its_rates_and_of_an_orbit_its_body(tmp_path):
 def test_a_narrow_picture_of_attitudes_has_the_verdict_of_each(tmp_path, monkeypatch, titled):
     """The heading of the case, which a page has, is the title of the whole figure, not of its first panel."""
     saved = []
-    monkeypatch.setattr(to_file.narrow_pictures, "save", lambda figure, path: saved.append(
+    monkeypatch.setattr(to_file.narrow_pictures, "save", lambda figure, path, *more: saved.append(
         [ax.get_title().partition(":")[0] for ax in figure.axes]))
-    monkeypatch.setattr(to_file.style, "save", lambda figure, path, dpi: path)
+    monkeypatch.setattr(to_file.style, "save", lambda figure, path, *more: path)
     to_file.write_all(CASES / "orbits/spinning.toml", tmp_path / "a.png", "equilibria",
                       narrow=tmp_path / "b.png", titled=titled)
     assert saved == [["one of a family"] * 4]
