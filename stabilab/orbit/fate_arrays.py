@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..numbers.double_double import EPS, TURN
+from ..numbers.double_double import EPS
 from ..numbers.numba_door import Kernel
 from ..numbers.polynomial import bracketed_newton
 from ..physics.coefficients import limits_of
@@ -35,19 +35,19 @@ from ..physics.states import equilibrium_mask
 from ..representation import Compared, Shown
 from . import equilibria_kernel
 from .arc_kernel import INLINED
-from .equilibria_kernel import MARGIN_SHARE
+from .barriers_arrays import margins_of
 from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_at_rest
-from .landscape import ROUNDINGS, ConicLandscape, HyperbolaLandscape, Landscape, in_doubles, landscape
+from .landscape import Landscape, in_doubles, landscape
 from .one_orbit import Orbit
 from .one_state import LOST, far_fate, far_rows
-from .potential import Hyperbola, derivatives_on_parabola
+from .potential import derivatives_on_parabola
 from .reduction import Reduction, reduce
 from .result import Fate, spins_about
 from .separatrix.distance import separatrix_distance
 
 # --- The answer
 MARGIN = 1.5e-4  # s of a processor: the margin of a row in plain Python
-CHUNK = 32768  # states at a time: some thirty arrays of so many doubles stay in the processor's caches
+CHUNK = 16384  # states at a time: some thirty arrays of so many doubles stay in the processor's caches
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -430,20 +430,16 @@ def _mark_spins(land: Landscape, out: Mapping[str, np.ndarray]):
 
 def _margins(land, states):
     """(margins (n,) in canonical units, which of them are doubtful (n,)); on an invariant plane NaN."""
-    circles, barred = not land.potential.walled, land.may_have_barriers()
-    if barred and land.barriers_by_arcs:
-        margins, doubtful = land.barriers_by_arcs(states)
+    walled, rows = land.potential.walled, np.arange(len(states))
+    if land.may_have_barriers():
+        margins, doubtful = margins_of(land.reduction, land.orbits, states)
         margins *= float(land.reduction.weight) / land.reduction.energy_unit
-        margins[doubtful], rows = 0.0, np.nonzero(doubtful)[0]
-        location = land.start(states[rows])[0]
+        rows = np.nonzero(doubtful)[0]
+        margins[rows], states = 0.0, states[rows]
     else:
-        location, w, size = land.start(states)
-        if circles:
-            return circle_margins(land, location, w, size)
-        rows, margins, doubtful = np.arange(len(w)), np.full(len(w), np.inf), np.zeros(len(w), bool)
-        if barred:
-            margins, doubtful = nearest_margins(land, location, w, size)
-    if land.conic is not None and not circles:
+        margins, doubtful = np.full(len(states), np.inf if walled else -np.inf), np.zeros(len(states), bool)
+    if walled and land.conic is not None:
+        location = land.start(states)[0]
         on_plane = rows[(location[0] == 0) | (location[1] == 0)]
         margins[on_plane], doubtful[on_plane] = np.nan, True
     return margins, doubtful
@@ -495,91 +491,6 @@ def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateR
             height = decide(Orbit(land.reduction, states[index])).margin
             margins[index] = abs(height) if land.potential.walled and np.isinf(height) else height
     return replace(result, margins=margins * land.reduction.energy_unit)
-
-
-def circle_margins(land: ConicLandscape, location: Sequence[np.ndarray], w: np.ndarray,
-                   size: Sequence[np.ndarray]):
-    """Return the margins (n,) in canonical units, and which of them are doubtful (n,).
-
-    A margin is the height of the highest barrier within one turn ahead, less the energy.
-    """
-    pot, energy, n = land.potential, 0.5 * w * w, len(w)
-    best, doubtful, blurred = np.full(n, -np.inf), np.zeros(n, bool), np.full(n, -np.inf)
-    Q, rounding = land.invariant(location), size[0] + size[1]
-    radius = np.sqrt(Q)
-    with np.errstate(all="ignore"):
-        pull = np.abs(pot.G * location[0] + pot.c) + abs(pot.d)
-        for rows, offset, point, barrier in land.branches(location, barriers_only=True):
-            if not barrier.all():
-                rows, offset, point = rows[barrier], offset[barrier], tuple(v[barrier] for v in point)
-            x, z, kinetic, wide = location[0][rows], location[1][rows], energy[rows], rounding[rows]
-            height, unsure = pot.height_over((x, z), point, offset)
-            margin = height - kinetic
-            # rounding of the angle adds less: where a barrier stands mu is below the other terms of the force
-            scale = (pot.mu * offset + kinetic
-                     + (pull[rows] + np.abs(pot.G * point[0] + pot.c))
-                     * (wide + np.abs(point[0]) + np.abs(point[1])))
-            # next to a fold the force hardly changes with the angle, so that its rounding moves the barrier
-            # far along the circle
-            angle_error = (32 * EPS * (1 + wide / radius[rows])
-                           * (1 + pot.terms(point) / np.abs(pot.slope(point))))
-            # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
-            doubtful[rows] |= ((np.abs(margin) <= ROUNDINGS * EPS * scale)
-                               | (np.minimum(offset, TURN - offset) <= angle_error))
-            best[rows] = np.fmax(best[rows], margin)
-            vague = ~(unsure <= MARGIN_SHARE * (np.abs(height) + kinetic))
-            blurred[rows[vague]] = np.maximum(blurred[rows[vague]], (margin + unsure)[vague])  # NaN stays
-        for edge in land.conic.fold_invariants + land.conic.tangents:
-            doubtful |= np.abs(Q - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
-    # a barrier of less digits than promised may be the highest
-    doubtful |= ~(blurred < best) & ~np.isneginf(blurred)
-    return best, doubtful & (radius > 0)
-
-
-def nearest_margins(land: HyperbolaLandscape, index: Sequence[np.ndarray], w: np.ndarray,
-                    size: Sequence[np.ndarray]):
-    """As `circle_margins`, on hyperbolas: the margins to the barrier that is nearest in height, +inf where
-    the orbit has none. Motions on either side of it are bounded."""
-    margins = np.full(len(w), np.inf)
-    offsets, spots, barrier = land.critical(index, barriers_only=True)
-    doubtful, barred = land.beside_fold(index) | land.beside_centre(index), np.nonzero(barrier.any(axis=1))[0]
-    if barred.size:
-        margins[barred], unsure = _to_nearest(
-            land, [v[barred] for v in index], w[barred], [v[barred] for v in size],
-            (offsets[barred], spots[:, barred], barrier[barred]))
-        doubtful[barred] |= unsure
-    return margins, doubtful
-
-
-def _to_nearest(land: HyperbolaLandscape, index: Sequence[np.ndarray], w: np.ndarray,
-                size: Sequence[np.ndarray], critical: Sequence[np.ndarray]):
-    """(margins, which are doubtful), (n,) each, of places whose orbits have barriers, `critical` says where.
-    """
-    pot, energy, margins = land.potential, 0.5 * w * w, np.full(len(w), np.inf)
-    doubtful = np.zeros(len(w), bool)
-    with np.errstate(all="ignore"):
-        force, slope, roughness = np.abs(pot.force(index)), np.abs(pot.slope(index)), land.roughness(size)
-        for offset, first, second, barrier in zip(critical[0].T, *(v.T for v in critical[1]), critical[2].T):
-            point = first, second
-            rise, unsure = pot.rise_and_rounding(-offset, point, index, size)
-            margin = np.where(barrier, -rise - energy, np.inf)
-            vague = ~(unsure <= MARGIN_SHARE * (np.abs(rise) + energy))
-            nearer = np.abs(margin) < np.abs(margins)
-            margins = np.where(nearer, margin, margins)
-            scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + roughness
-            doubtful |= nearer & (vague | (np.abs(margin) <= ROUNDINGS * EPS * scale))
-            # rounding has led to another equilibrium than was sought, or tilts the way to it
-            doubtful |= barrier & (~(pot.slope(point) > 0)
-                                   | _tilted(pot, point, offset, -rise - energy, energy))
-    return margins, doubtful
-
-
-def _tilted(pot: Hyperbola, point: Sequence[np.ndarray], offset: np.ndarray, margin: np.ndarray,
-            energy: np.ndarray):
-    """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over
-    the way to it."""
-    return (2 * EPS * pot.terms(tuple(point)) * np.abs(offset) > MARGIN_SHARE
-            * (np.abs(margin + energy) + energy))
 
 
 def flat_mask(land: Landscape, states: np.ndarray):

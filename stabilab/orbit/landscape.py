@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..numbers.double_double import TURN, Twofold
-from .barriers_arrays import MarginsByArcs, margins_by_arcs
+from .barriers_arrays import Orbits, orbits_of
 from .conic import Conic, conic_of
 from .potential import potential
 from .reduction import Reduction, reduce
@@ -83,9 +83,9 @@ class Landscape:
         return False
 
     @cached_property
-    def barriers_by_arcs(self) -> MarginsByArcs | None:
-        """The margins of many states by arcs from these, where most orbits lend themselves to it."""
-        return margins_by_arcs(self.reduction)
+    def orbits(self) -> Orbits:
+        """What margins of many states are formed with."""
+        return orbits_of(self.reduction)
 
     @cached_property
     def kernel_input(self):

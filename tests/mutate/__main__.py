@@ -24,7 +24,7 @@ SUBJECTS = {
     "reduction": (("orbit/reduction",),
                   ("orbit/test_against_the_potential", "orbit/fate/test_fate", "answers/test_certificate",
                    "orbit/test_reduction")),
-    "fate": (("orbit/fate_arrays", "orbit/landscape", "orbit/conic"),
+    "fate": (("orbit/fate_arrays", "orbit/barriers_arrays", "orbit/landscape"),
              ("orbit/test_against_the_potential", "orbit/fate/test_fate", "orbit/fate/test_parabola",
               "orbit/fate/test_rounding_bounds", "orbit/fate/test_arrays")),
     "extremes": (("orbit/extremes_arrays", "numbers/polynomial"),

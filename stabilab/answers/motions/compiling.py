@@ -9,6 +9,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.numba_door import Kernel, installed
+from ...orbit.barriers_arrays import BARRIERS
 from ...orbit.extremes_arrays import KERNELS, settle_rows
 from ...orbit.fate_arrays import MARGINS
 from ...orbit.landscape import landscape
@@ -29,12 +30,14 @@ SCENE = Scene(Body((12, 9, 5)), Gyrostat((0.8, 0, 0)), ConstantTorque((0, 0, 0.0
 
 
 def rows() -> None:
-    """Of extremes and periods of many states, between turning points and all round a circle, and of margins
-    that doubles leave open."""
+    """Of extremes and periods of many states, between turning points and all round a circle, and of margins,
+    those too that doubles leave open."""
     land = landscape(SCENE)
     for kind in KERNELS:
         settle_rows(land, STATES, np.empty((len(STATES), 3, 2)), np.empty(len(STATES)),
                     np.full(len(STATES), BOX + PERIOD, np.uint8), True, kind)
+    BARRIERS.functions(True)["margins"](*STATES.T.copy(), land.orbits, np.empty(len(STATES)),
+                                        np.empty(len(STATES), np.int8))
     MARGINS.functions(True)["margins"](STATES, np.arange(len(STATES)), *land.kernel_input,
                                        np.empty(len(STATES)), np.zeros(len(STATES), bool))
 
@@ -62,8 +65,8 @@ TASKS: tuple[Callable[[], None], ...] = rows, spin_ups, enclosures
 
 def kernels() -> tuple[Kernel, ...]:
     """All that is compiled."""
-    return (*KERNELS.values(), MARGINS, certificate.DECIDE, certificate.ADVANCE, certificate.SIDE_BY_SIDE,
-            enclosure.ADVANCE)
+    return (*KERNELS.values(), BARRIERS, MARGINS, certificate.DECIDE, certificate.ADVANCE,
+            certificate.SIDE_BY_SIDE, enclosure.ADVANCE)
 
 
 def compile_all() -> str:

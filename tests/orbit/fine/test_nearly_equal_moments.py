@@ -181,9 +181,9 @@ def test_margins_have_the_digits_and_the_sign_of_balls_whatever_the_difference_o
 
 
 @pytest.mark.parametrize("seed", [7, *later(range(120, 140))])
-def test_margins_by_arcs_have_the_digits_and_the_sign_of_balls(seed):
-    """Parabolas, hyperbolas and circles of nearly equal moments, and circles about an axis across which they
-    are nearly equal, on which the force is nearly one sine."""
+def test_margins_in_doubles_have_the_digits_and_the_sign_of_balls(seed):
+    """On all orbits, circles about an axis across which moments are nearly equal too, on which the force is nearly
+    one sine."""
     draw, full, doubts = scenes(seed), 0, 0
     barriers = {1: 0, 0: 0, -1: 0, "across": 0}
     while min(barriers.values()) < 15:
@@ -195,14 +195,45 @@ def test_margins_by_arcs_have_the_digits_and_the_sign_of_balls(seed):
                 continue
             scene = Scene(Body(D), *scene.effects)
         land = landscape(scene)
-        if not land.barriers_by_arcs:
-            continue
         states = random_states(scene, axis, rng, 8)
-        results, doubtful = land.barriers_by_arcs(states)
+        results, doubtful = barriers_arrays.margins_of(land.reduction, land.orbits, states)
         full, doubts = full + 8, doubts + np.count_nonzero(doubtful)
         barriers["across" if across and land.e < 0 else land.e] += assert_margins(
             land, axis, states[~doubtful], results[~doubtful])
     assert doubts <= 0.05 * full
+
+
+@pytest.mark.slow
+def test_compiled_margins_are_the_bytes_of_numpy(monkeypatch):
+    """Nothing but sums, products, quotients and square roots, whose digits the standard of floats fixes."""
+    if not installed():
+        pytest.skip("needs numba")
+    draw = scenes(11)
+    for _ in range(30):
+        scene, axis, rng = next(draw)
+        land, states = landscape(scene), random_states(scene, axis, rng, 50)
+        both = []
+        for fast in (False, True):
+            monkeypatch.setattr(barriers_arrays.BARRIERS, "pays", lambda work, fast=fast: fast)
+            both.append(barriers_arrays.margins_of(land.reduction, land.orbits, states))
+        clear = ~both[0][1]
+        assert clear.tobytes() == (~both[1][1]).tobytes() and clear.any()
+        assert both[0][0][clear].tobytes() == both[1][0][clear].tobytes(), scene
+
+
+def test_an_arc_of_any_length_has_its_third_function_to_some_roundings():
+    """y and S3 = (S1 - y)/e of x = tan(y/2), y/2 or tanh(y/2), by mpmath at 40 digits."""
+    rng = random.Random(2)
+    with mp.workdps(40):
+        for number in range(60):
+            e = number % 3 - 1
+            x = 10 ** rng.uniform(-9, 9 if e < 0 else 2) if e <= 0 else math.tanh(10 ** rng.uniform(-8, 0.78))
+            arc, exact = (mp.atan, mp.mpf, mp.atanh)[e + 1], mp.mpf(x)
+            y, third = barriers_arrays.third(x, 1.0, (1 - x) * (1 + x) if e > 0 else 1 - e * x * x, float(e))
+            angle = 2 * arc(exact)
+            expected = (2 * exact / (1 - e * exact**2) - angle) / e if e else angle**3 / 6
+            assert y == pytest.approx(float(angle), rel=1e-15, abs=0)
+            assert third == pytest.approx(float(expected), rel=2e-15, abs=0)
 
 
 def test_the_discriminant_tells_how_many_roots_of_a_quartic_are_real():
@@ -219,7 +250,7 @@ def test_the_discriminant_tells_how_many_roots_of_a_quartic_are_real():
         quartic = np.append(quartic, 0.0)[:5]
         exact = sympy.Poly(list(map(sympy.Rational, quartic[::-1])), x)
         expected = float(27 * (exact.discriminant() if high else exact.LC() ** 2 * exact.discriminant()))
-        found = barriers_arrays.discriminant([np.array([v]) for v in quartic])[0]
+        found, _ = barriers_arrays.discriminant(quartic.tolist(), [0.0] * 5)
         assert found == pytest.approx(expected, rel=1e-6)
         assert (found < 0) == (high and pairs == 1)
 
