@@ -3,7 +3,6 @@
 for what these leave open."""
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,7 @@ from . import rows_kernel, turns_kernel
 from .arc_kernel import INLINED
 from .extremes import precise_extremes
 from .fate_arrays import CHUNK, FateResult, fate_on_orbit, fates, rows_beyond_doubles
-from .landscape import HyperbolaLandscape, Landscape, ParabolaLandscape, landscape
+from .landscape import Landscape, landscape
 from .one_orbit import Orbit
 from .one_state import far_numbers
 from .period import precise_period
@@ -28,63 +27,21 @@ from .rows_kernel import BOX, PERIOD
 if TYPE_CHECKING:
     from ..physics.scene import AnyScene
 
-# --- Rows by NumPy: at rest, on an invariant plane, along a parabola without a force that changes
-# closer to the separatrix than this share of the energy terms, rounding costs the least rate of a motion that
-# just passes a barrier 1e-12: the root of a difference
-SPIN_UP_SHARE = 1e-4
-ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
-# canonical variables lose this factor of accuracy to the shift before balls serve
-SHIFT_LIMIT = 1e4
-
-
+# --- Rows by NumPy: at rest, along a parabola without a force that changes
 def trapped_rows(land: Landscape, decided: FateResult):
     """(n,) True for motions between two turning points."""
     trapped = decided.labels == Fate.BOUNDED
     return trapped & (decided.margins >= 0) if land.may_rotate else trapped
 
 
-def open_extremes(land: Landscape, states, labels, margins):
+def open_extremes(land: Landscape, states: np.ndarray, labels: np.ndarray):
     """Extremes (n, 3, 2) of rows that neither two turning points bound nor a circle; NaN where these are left
-    to balls."""
-    out = np.repeat(states[:, :, None], 2, axis=2)
-    out[(labels != Fate.EQUILIBRIUM) & (labels != Fate.UNDECIDED)] = np.nan
-    rows = np.nonzero(labels == Fate.SPIN_UP)[0]
-    if rows.size:
-        out[rows] = SPINNING[land.e](land, states[rows], margins[rows])
+    to balls, as on an invariant plane."""
+    out, spins = np.repeat(states[:, :, None], 2, axis=2), labels == Fate.SPIN_UP
+    if land.conic is None:  # along a parabola whose force does not change both other rates stay
+        out[spins, land.reduction.axis, 1 if land.sense > 0 else 0] = land.sense * np.inf
+    out[(labels == Fate.BOUNDED) | (labels == Fate.SEPARATRIX) | (spins & (land.conic is not None))] = np.nan
     return out
-
-
-def _spinning_on_plane(land: HyperbolaLandscape, states: np.ndarray, margins: np.ndarray):
-    """On the decaying plane xi = 0: eta shrinks to 0, and the least rate is here or over a barrier ahead.
-    NaN for the excursion back to a turning point behind, next to a separatrix, at a barrier's location to
-    rounding, and where the centre of the orbits stands far off."""
-    (xi, eta), w, _ = land.start(states)
-    r, pot, zero = land.reduction, land.potential, np.zeros(len(w))
-    point = xi, eta
-    offset, spots, barrier = land.critical(point)
-    slowest = np.array(w)
-    with np.errstate(all="ignore"):
-        for column in range(offset.shape[1]):
-            over = 0.5 * w * w + pot.rise(-offset[:, column], spots[:, :, column])
-            ahead = barrier[:, column] & (offset[:, column] > 0)
-            slowest = np.where(ahead, np.minimum(slowest, np.sqrt(2 * np.maximum(over, 0))), slowest)
-    doubtful = r.parabolic_shift_size > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
-    doubtful |= np.abs(margins) <= SPIN_UP_SHARE * r.energy_unit * land.energy_terms(point, w)
-    doubtful |= (np.abs(pot.force(point)) <= ON_TOP * pot.terms(point)) & (pot.slope(point) > 0)
-    slowest[((w < 0) & (eta != 0)) | doubtful | land.beside_centre(point)] = np.nan
-    one = land.components((zero, np.minimum(eta, 0)), slowest)
-    other = land.components((zero, np.maximum(eta, 0)), np.where(np.isnan(slowest), np.nan, np.inf))
-    return np.stack([np.minimum(one, other), np.maximum(one, other)], axis=2)
-
-
-def _spinning_purely(land: ParabolaLandscape, states: np.ndarray, margins: np.ndarray):
-    """Along a parabola whose force does not change: both other rates stay."""
-    out = np.repeat(states[:, :, None], 2, axis=2)
-    out[:, land.reduction.axis, 1 if land.sense > 0 else 0] = land.sense * np.inf
-    return out
-
-
-SPINNING: dict[int, Callable[..., np.ndarray]] = {1: _spinning_on_plane, 0: _spinning_purely}
 
 
 # --- Row by row, by the kernels
@@ -188,7 +145,7 @@ def _of_chunk(scene: AnyScene, states: np.ndarray, box: bool, period: bool, by_n
     left_open |= turning
     if box:
         others = ~bounded & ~spinning
-        boxes[others] = open_extremes(land, states[others], decided.labels[others], decided.margins[others])
+        boxes[others] = open_extremes(land, states[others], decided.labels[others])
         for index in np.nonzero((left_open & BOX > 0) | (others & np.isnan(boxes).any(axis=(1, 2))))[0]:
             boxes[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
         boxes[:, :, 0] = np.minimum(boxes[:, :, 0], states)  # rounding must not exclude the state itself

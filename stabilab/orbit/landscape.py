@@ -52,7 +52,6 @@ def twofold_constant(value: Fraction) -> Twofold:
 
 # --- Barriers and wells along the orbits of many states at once: what the three geometries have in common,
 # and circle and hyperbola
-EPS = 2.0**-52
 # a Newton step as small leaves its square; from half a radian five are enough, but at a fold
 ONE_STEP, MOST_STEPS = 3e-9, 8
 LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
@@ -61,10 +60,8 @@ LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more
 class Landscape:
     """A reduction with its potential and its curve of equilibria, on one of the three geometries.
 
-    start(states) gives places (arrays), W and the size of rounding in the place; critical(place) the
-    equilibria on each orbit: offsets theta_c - theta_0 (n, m), places (n, m) and which are barriers; missing
-    ones have offset nan. Places are (X, Z) on a circle, (X + Z, X - Z) on a hyperbola, (omega_j, omega_k) on
-    a parabola.
+    start(states) gives places (arrays), W and the size of rounding in the place. Places are (X, Z) on a
+    circle, (X + Z, X - Z) on a hyperbola, (omega_j, omega_k) on a parabola.
     """
 
     conic: Conic | None = None
@@ -101,13 +98,6 @@ class Landscape:
         place."""
         raise NotImplementedError
 
-    def critical(self, place: Sequence[np.ndarray], barriers_only: bool = False):
-        """Equilibria on the orbits of places (n,): (offsets (n, m), place (2, n, m), barrier (n, m) bool).
-
-        Offsets on a circle lie in (0, 2 pi]; the same equilibrium recurs every turn.
-        """
-        raise NotImplementedError
-
     def invariant(self, place: np.ndarray | Sequence[float | np.ndarray]):
         """Q of each place; of circles and hyperbolas."""
         raise NotImplementedError
@@ -128,10 +118,6 @@ class Landscape:
         """omega_i of canonical W."""
         raise NotImplementedError
 
-    def energy_terms(self, place: Sequence[np.ndarray], w: np.ndarray):
-        """(n,) size of the energy's terms, canonical."""
-        raise NotImplementedError
-
     def may_have_barriers(self) -> bool:
         """False where no orbit has a barrier."""
         return True
@@ -143,9 +129,8 @@ class Landscape:
     def polished(self, spot: Sequence[np.ndarray]):
         """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step.
         """
-        first, second = spot
         step = self._newton_step(spot)
-        first, second = self.potential.nudge(spot, np.where(np.abs(step) < ONE_STEP, step, 0.0))
+        first, second = self.potential.move(spot, step)
         rows = np.nonzero(np.abs(step) >= ONE_STEP)
         for _ in range(MOST_STEPS if rows[0].size else 0):
             item = first[rows], second[rows]
@@ -222,27 +207,6 @@ class ConicLandscape(Landscape):
     def rate(self, w: Number):
         return self.reduction.component_i(w)
 
-    def branches(self, place: Sequence[np.ndarray], barriers_only: bool = False):
-        """Equilibria on the orbits of places (n,), branch by branch: (rows that it meets, offsets, places,
-        which are barriers), arrays as long as the rows."""
-        Q = self.invariant(place)
-        for rows, x, z, barrier in self.conic.critical_places(Q, True if barriers_only else None):
-            there, offset, point = self.located(tuple(v[rows] for v in place), Q[rows], x, z)
-            yield (rows[there], offset, point,
-                   self.potential.slope(point) > 0 if barrier is None else np.full(len(offset), barrier))
-
-    def critical(self, place: Sequence[np.ndarray], barriers_only: bool = False):
-        result = list(self.branches(place, barriers_only))
-        n, m = len(place[0]), len(result)
-        offsets, places, barrier = np.full((n, m), np.nan), np.zeros((2, n, m)), np.zeros((n, m), bool)
-        for column, (rows, offset, point, high) in enumerate(result):
-            offsets[rows, column], places[:, rows, column], barrier[rows, column] = offset, point, high
-        return offsets, places, barrier
-
-    def located(self, place: Sequence[np.ndarray], Q: np.ndarray, x: np.ndarray, z: np.ndarray):
-        """(which there are, offsets, places) of equilibria at (X, Z) on the orbits Q of places."""
-        raise NotImplementedError
-
     def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         """theta from a place to another on its orbit, which is rounded; on a circle the turn is that of
         `near`."""
@@ -256,18 +220,8 @@ class ConicLandscape(Landscape):
     def may_have_barriers(self) -> bool:
         return any(p.barrier for p in self.conic.pieces) or bool(self.conic.lines)
 
-    def energy_terms(self, place: Sequence[np.ndarray], w: np.ndarray):
-        pot, size = self.potential, np.hypot(*place)
-        return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + pot.slopes * size
-
 
 # --- The same on circles, hyperbolas and parabolas, one class each
-# units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
-ROUNDINGS = 64
-# of the asymptotes' distance from a hyperbola's centre: nearer to it the conic's doubles place no equilibrium
-CENTRE = 1e-10
-
-
 def angle_between(index: Sequence[np.ndarray], point: Sequence[np.ndarray] | np.ndarray):
     """theta from one place on a circle to another, the short way round: in [-pi, pi]."""
     return np.arctan2(point[0] * index[1] - point[1] * index[0], point[0] * index[0] + point[1] * index[1])
@@ -292,13 +246,6 @@ class CircleLandscape(ConicLandscape):
 
     def invariant(self, place: np.ndarray | Sequence[float | np.ndarray]):
         return place[0] ** 2 + place[1] ** 2
-
-    def located(self, place: Sequence[np.ndarray], Q: np.ndarray, x: np.ndarray, z: np.ndarray):
-        with np.errstate(all="ignore"):
-            scale = np.sqrt(Q / (x * x + z * z))
-            point = self.polished((x * scale, z * scale))
-            offset = angle_between(place, point)
-        return slice(None), np.where(offset > 0, offset, offset + TURN), point
 
     def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         angle = angle_between(spot, place)
@@ -325,18 +272,6 @@ class HyperbolaLandscape(ConicLandscape):
     def invariant(self, place: np.ndarray | Sequence[float | np.ndarray]):
         return -place[0] * place[1]
 
-    def located(self, place: Sequence[np.ndarray], Q: np.ndarray, x: np.ndarray, z: np.ndarray):
-        xi, eta = x + z, x - z
-        big = np.abs(xi) >= np.abs(eta)
-        with np.errstate(all="ignore"):
-            xi = np.where(big, xi, -Q / eta)
-            eta = np.where(big, -Q / xi, eta)
-            # both 0 on a plane
-            there = np.nonzero((np.sign(xi) == np.sign(place[0])) & (np.sign(eta) == np.sign(place[1])))[0]
-            point, start = self.polished((xi[there], eta[there])), [v[there] for v in place]
-            offset = np.where(big[there], np.log(point[0] / start[0]), -np.log(point[1] / start[1]))
-        return there, offset, point
-
     def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         big = np.abs(place[0]) >= np.abs(place[1])
         return np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
@@ -347,33 +282,6 @@ class HyperbolaLandscape(ConicLandscape):
                   / ((np.abs(place[0]) + np.abs(place[1])) * wide))
         # the tilt falls by mu times the logarithm of the place
         return self.potential.mu * wide / largest, beside
-
-    def beside_fold(self, place: Sequence[np.ndarray]):
-        Q, beside = self.invariant(place), np.zeros(np.shape(place[0]), bool)
-        for edge in self.conic.fold_invariants + self.conic.tangents:
-            beside |= np.abs(Q - edge) <= ROUNDINGS * EPS * (np.abs(Q) + abs(edge))
-        return beside
-
-    def roughness(self, size: Sequence[np.ndarray]):
-        pot, s = self.potential, size[0] + size[1]
-        return np.abs(pot.G) * s * s + pot.slopes * s + pot.mu
-
-    def beside_centre(self, place: Sequence[np.ndarray]):
-        """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic,
-        which is known by its distance from its asymptotes, loses or invents it."""
-        nearby = self._near_centre()
-        if nearby is None:
-            return np.zeros(np.shape(place[0]), bool)
-        return np.sqrt(np.abs(place[0])) * np.sqrt(np.abs(place[1])) <= nearby
-
-    def _near_centre(self):
-        """How near the centre the conic is not to be trusted; None where no equilibrium stands there."""
-        if not self.conic.pieces:
-            return None
-        c, d, G = (abs(getattr(self.conic, name)) for name in ("c", "d", "G"))
-        nearby = CENTRE * (c + d) / G  # the force of the wheel there is at most (c + d) times as much
-        return nearby if self.conic.mu <= (c + d) * nearby else None
-
 
 class ParabolaLandscape(Landscape):
     """place = (omega_j, omega_k)."""
@@ -388,20 +296,6 @@ class ParabolaLandscape(Landscape):
 
     def rate(self, w: Number):
         return w - float(self.reduction.s)
-
-    def energy_terms(self, place: Sequence[np.ndarray], w: np.ndarray):
-        return 0.5 * w * w
-
-    def critical(self, place: Sequence[np.ndarray], barriers_only: bool = False):
-        force, derivatives = self.potential.force(place), self.potential.derivatives(place)
-        offsets = np.full((len(force), 3), np.nan)
-        for row, (first, second, third) in enumerate(zip(*(np.broadcast_to(v, force.shape)
-                                                           for v in derivatives))):
-            roots = np.roots((third / 6, second / 2, first, force[row]))
-            real = roots[np.isreal(roots)].real
-            offsets[row, :len(real)] = real
-        points = np.array(self.potential.move(tuple(v[:, None] for v in place), np.nan_to_num(offsets)))
-        return offsets, points, (self.potential.slope(tuple(points)) > 0) & ~np.isnan(offsets)
 
     def nearly_flat(self, states: np.ndarray):
         r = self.reduction

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..numbers.polynomial import halved
 from .landscape import Landscape, landscape_in_doubles
+from .one_orbit import Orbit
 from .one_state import in_range
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ class PhasePlane:
     """
 
     land: Landscape
+    state: tuple[float, ...]
     place: tuple
     W0: float
 
@@ -71,10 +73,10 @@ class PhasePlane:
     @cached_property
     def _critical(self):
         """[(y, is a saddle)] on the orbit; for a circle within one turn of the state."""
-        offsets, _, barrier = self.land.critical(tuple(np.array([v]) for v in self.place))
-        if np.isfinite(self.land.turn):
-            offsets = np.where(offsets > np.pi, offsets - self.land.turn, offsets)
-        return sorted((y, saddle) for y, saddle in zip(offsets[0].tolist(), barrier[0].tolist())
+        spots = Orbit(self.reduction, self.state).settled(
+            lambda orbit: [(float(spot.y), spot.kind > 0) for spot in orbit.spots if spot.kind])
+        half = 0.5 * self.land.turn
+        return sorted((y - self.land.turn if y > half else y, saddle) for y, saddle in spots
                       if abs(y) < FARTHEST)
 
     @property
@@ -133,8 +135,9 @@ def phase_plane(scene: AnyScene, state: np.ndarray | Sequence[float]) -> PhasePl
         land = landscape_in_doubles(scene)
     if land is None:
         return None
-    location, w, _ = land.start(np.asarray(state, float))
-    return PhasePlane(land, tuple(float(v) for v in location), float(w))
+    array = np.asarray(state, float)
+    location, w, _ = land.start(array)
+    return PhasePlane(land, tuple(array.tolist()), tuple(float(v) for v in location), float(w))
 
 
 # of what the potential rises in a unit of y: a motion with less is shown in the well that it rests in

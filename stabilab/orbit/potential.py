@@ -145,44 +145,11 @@ class Circle:
         s, b = sin(y), -2 * half * half
         return x + (z * s + x * b), z + (z * b - x * s)
 
-    def nudge(self, place: Sequence[np.ndarray], y: np.ndarray):
-        """`move` for |y| < 1e-5, to rounding."""
-        x, z = place
-        b = -0.5 * y * y
-        return x + (z * y + x * b), z + (z * b - x * y)
-
     def rise(self, y: float | np.ndarray, place: np.ndarray | Sequence[float | np.ndarray],
              force: float | np.ndarray = 0.0):
         half = sin(0.5 * y)
         return rise_at(self.G, self.c, self.d, self.mu, -1, place, (sin(y), -2 * half * half), y_minus_sin(y),
                        force)
-
-    def height_over(self, place: Sequence[np.ndarray], spot: Sequence[np.ndarray], offset: np.ndarray):
-        """(V at an equilibrium `spot`, `offset` ahead of a place of its circle, above V at the place; its
-        rounding), arrays.
-
-        Sine and cosine come from the places, not from the offset, and squares of coordinates are differences
-        formed as products: where the place is half a turn or a whole one from the spot, G A^2 is far above
-        any height and drops out.
-        """
-        import numpy as np
-        (x0, z0), (x, z) = place, spot
-        Q = x0 * x0 + z0 * z0
-        s, cosine = (x * z0 - z * x0) / Q, (x * x0 + z * z0) / Q
-        u = np.where(cosine > 0, s * s / (1 + cosine), 1 - cosine)
-        lag, small = offset - s, offset < SHORT
-        lag[small] = _odd_series(offset[small])
-        cross, bent = self.G * x * z, 0.5 * self.G * (z - x) * (z + x)
-        tilt, pull = self.mu * lag, u * (np.abs(self.d * z) + np.abs(self.c * x))
-        height = bent * s * s + cross * s * u + u * (self.d * z - self.c * x) - tilt
-        # a rounding of each term; of the angle and the radius of the place; and of the equilibrium, where the
-        # force should vanish
-        angle = (np.abs(x * z0) + np.abs(z * x0) + np.abs(x0 * z0)) / Q
-        unsure = (np.abs(bent * s * s) + np.abs(cross * s * u) + pull + np.abs(tilt)
-                  + (self.mu + np.abs(self.force(place))) * angle
-                  + (self.mu + np.abs(cross) + self.terms(spot) + np.abs(self.force(spot)) / EPS) * np.abs(s))
-        return height, EPS * unsure
-
 
 class Hyperbola:
     """place = (xi, eta) = (X + Z, X - Z), growing and decaying like exp(+-theta)."""
@@ -225,8 +192,6 @@ class Hyperbola:
     def move(self, place: Sequence[float | np.ndarray], y: float | np.ndarray):
         return place[0] * exp(y), place[1] * exp(-y)
 
-    nudge = move
-
     def rise(self, y: float | np.ndarray, place: np.ndarray | Sequence[float | np.ndarray],
              force: float = 0.0):
         return sum(self._terms(y, place)) - force * y
@@ -240,16 +205,6 @@ class Hyperbola:
         return (eighth * xi * xi * (grown * grown + 2 * up),
                 eighth * eta * eta * (decayed * decayed + 2 * down),
                 -self.e1 * xi * up, self.e2 * eta * down)
-
-    def rise_and_rounding(self, y: np.ndarray, spot: Sequence[np.ndarray], place: Sequence[np.ndarray],
-                          size: Sequence[np.ndarray]):
-        """`rise` from an equilibrium `spot`, and its rounding, with that of the place y away (by its `size`);
-        arrays."""
-        terms = self._terms(y, spot)
-        blur = 3 + (size[0] + size[1]) * (1 / abs(place[0]) + 1 / abs(place[1]))
-        return sum(terms), (EPS * (4 * sum(map(abs, terms)) + abs(self.force(place)) * blur)
-                            + abs(self.force(spot) * y))
-
 
 class Parabola:
     """Two equal moments: place = (omega_j, omega_k); the potential is a polynomial of degree 4 or less."""
