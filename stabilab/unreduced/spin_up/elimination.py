@@ -104,8 +104,8 @@ def _part(shape: Shape, rows: Callable[..., np.ndarray], *options: Hashable) -> 
     return Shape(shape.keys[chosen]), chosen
 
 
-def _gathered(shapes: Sequence[Shape], halves: Sequence[Shape]) -> tuple[
-        Shape, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _gathered(shapes: Sequence[Shape], halves: Sequence[Shape]
+              ) -> tuple[Shape, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """(exponents of the sum of all, no two alike, rising; order of the terms; where each begins in it; which
     of them stand for the conjugates of theirs; which for twice their real part)."""
     keys = np.concatenate([shape.keys for shape in (*shapes, *halves)])
