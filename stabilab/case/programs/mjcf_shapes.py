@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -121,18 +122,18 @@ def _geoms(holder: Element, frame: Frame, inner: str, place: Place
 
 
 def _between(geom: Element) -> Frame:
-    """The frame of a shape between two points: its third axis along them, by the smallest turn."""
+    """The frame of a shape between two points: its third axis along them."""
     middle, half = _ends(geom)
-    z = half / sqrt_fraction(Fraction(half @ half))
+    z = half / sqrt_fraction(half @ half)
     helper = np.array([Fraction(1), Fraction(0), Fraction(0)] if abs(z[0]) < abs(z[1]) else
                       [Fraction(0), Fraction(1), Fraction(0)])
-    x = np.cross(helper, z)
-    x = x / sqrt_fraction(sum((v * v for v in x), Fraction(0)))  # any: the shape is the same about its third axis
+    x: Any = np.cross(helper, z)
+    x = x / sqrt_fraction(x @ x)  # any: the shape is the same about its third axis
     return Frame(np.array([x, np.cross(z, x), z]), middle)
 
 
-def _ends(geom: Element) -> tuple[np.ndarray, np.ndarray]:
-    """(middle, half of the vector) from the first to the second point of fromto."""
+def _ends(geom: Element) -> tuple[Any, Any]:
+    """(middle (3,), half of the vector (3,)) from the first to the second point of fromto."""
     first, second = np.array(fractions(geom.attribute("fromto", 6))).reshape(2, 3)
     if not (second - first).any():
         raise geom.fault("expected two points that differ", "fromto")
