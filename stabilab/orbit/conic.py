@@ -2,8 +2,7 @@
 stationary.
 
 G X Z + c Z + d X + mu = 0 is a hyperbola, two lines or one line. Between its folds (points where it touches
-an orbit) Q is monotone along it, so each piece meets an orbit at most once: that makes the search for all
-barriers and wells of every orbit complete and vectorised.
+an orbit) Q is monotone along it, so each piece meets an orbit at most once, in barriers alone or in wells.
 """
 from __future__ import annotations
 
@@ -24,13 +23,11 @@ FOLD_BITS = 200
 
 class Piece(NamedTuple):
     """Part of the hyperbola X = (K/h - c)/G, Z = h - d/G with h between `inner` and `outer` in size (0 and
-    inf at the open ends), of one sign; `rising`: Q grows with |h|. barrier: it holds saddles (maxima of the
-    potential)."""
+    inf at the open ends), of one sign; barrier: it holds saddles (maxima of the potential)."""
 
     sign: int
     inner: float
     outer: float
-    rising: bool
     barrier: bool
 
 
@@ -115,10 +112,10 @@ class Conic:
         for sign in (-1, 1):
             cuts = sorted(abs(f) for f in self.folds if f * sign > 0)
             for inner, outer in zip([0.0, *cuts], [*cuts, float("inf")]):
-                (x, z), (far_x, far_z) = (exact_at(Fraction(sign * h)) for h in _inside(inner, outer))
+                x, z = exact_at(Fraction(sign * _inside(inner, outer)))
                 slope = G * (z * z + e * x * x) + e * c * x + d * z
-                rising = far_z * far_z - e * far_x * far_x > z * z - e * x * x
-                yield Piece(sign, inner, outer, rising, slope > 0)
+                yield Piece(sign, inner, outer, slope > 0)
+
 
 class CircleConic(Conic):
     """The equilibria on circles."""
@@ -134,6 +131,7 @@ class CircleConic(Conic):
     def sides(self, sense: int):
         """On a tilted circle against the torque alone."""
         return ((-1, ""),) if sense else super().sides(sense)
+
 
 class HyperbolaConic(Conic):
     """The equilibria on hyperbolas."""
@@ -155,15 +153,11 @@ def conic_of(reduction: Reduction) -> Conic:
     return GEOMETRIES[reduction.e](reduction)
 
 
-def _inside(inner: float, outer: float):
-    """Two points inside (inner, outer), the first nearer to `inner`."""
-    if inner == 0 and math.isinf(outer):
-        return 0.5, 2.0
-    if inner == 0:
-        return outer / 3, outer / 1.5
+def _inside(inner: float, outer: float) -> float:
+    """A point inside (inner, outer)."""
     if math.isinf(outer):
-        return inner * 1.5, inner * 3
-    return inner + (outer - inner) / 3, inner + (outer - inner) / 1.5
+        return inner * 1.5 if inner else 0.5
+    return inner + (outer - inner) / 3
 
 
 def _conic_degenerates(reduction: Reduction) -> bool:

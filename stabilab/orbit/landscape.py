@@ -283,6 +283,7 @@ class HyperbolaLandscape(ConicLandscape):
         # the tilt falls by mu times the logarithm of the place
         return self.potential.mu * wide / largest, beside
 
+
 class ParabolaLandscape(Landscape):
     """place = (omega_j, omega_k)."""
 

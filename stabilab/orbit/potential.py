@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from ..numbers.vectors import Number
 
-EPS = 2.0**-52
 SHORT = 0.7  # of an arc: there it is too near to its sine for a difference
 
 
@@ -151,6 +150,7 @@ class Circle:
         return rise_at(self.G, self.c, self.d, self.mu, -1, place, (sin(y), -2 * half * half), y_minus_sin(y),
                        force)
 
+
 class Hyperbola:
     """place = (xi, eta) = (X + Z, X - Z), growing and decaying like exp(+-theta)."""
 
@@ -194,17 +194,14 @@ class Hyperbola:
 
     def rise(self, y: float | np.ndarray, place: np.ndarray | Sequence[float | np.ndarray],
              force: float = 0.0):
-        return sum(self._terms(y, place)) - force * y
-
-    def _terms(self, y: float | np.ndarray, location: np.ndarray | Sequence[float | np.ndarray]):
-        """What `rise` is the sum of; exp(2 y) - 1 - 2 y is the square of exp(y) - 1 and twice exp(y) - 1 - y.
-        """
-        (xi, eta), up, down = location, exp_minus_two_terms(y), exp_minus_two_terms(-y)
+        # exp(2 y) - 1 - 2 y is the square of exp(y) - 1 and twice exp(y) - 1 - y
+        (xi, eta), up, down = place, exp_minus_two_terms(y), exp_minus_two_terms(-y)
         grown, decayed = up + y, down - y
         eighth = -0.125 * self.G
-        return (eighth * xi * xi * (grown * grown + 2 * up),
-                eighth * eta * eta * (decayed * decayed + 2 * down),
-                -self.e1 * xi * up, self.e2 * eta * down)
+        return (eighth * xi * xi * (grown * grown + 2 * up)
+                + eighth * eta * eta * (decayed * decayed + 2 * down)
+                - self.e1 * xi * up + self.e2 * eta * down - force * y)
+
 
 class Parabola:
     """Two equal moments: place = (omega_j, omega_k); the potential is a polynomial of degree 4 or less."""
