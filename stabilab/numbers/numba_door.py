@@ -172,19 +172,20 @@ def compiled(module: ModuleType, inlined: Container[str] = (), variant: str = ""
     return _kept(lambda cache: _compiled(module, inlined, cache, variant, allocating, entries, instead))
 
 
-def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "",
-          **instead: Any) -> dict[str, Any]:
+def twins(module: ModuleType, make: Callable[[str, FunctionType], Any],
+          variant: Callable[[ModuleType], str] = lambda module: "", **instead: Any) -> dict[str, Any]:
     """The names of a module and of those below it (`_below`) with `make` of a twin of each of their
-    functions, which sees these names; instead, variant: as of `compiled`."""
+    functions, which sees these names; instead: as of `compiled`; variant: what is added to the names of a
+    module's functions."""
     modules, names = (*_below(module), module), dict[str, Any]()
     for each in modules:
         names |= vars(each)
     names |= instead
-    files = {each.__name__ for each in modules}
+    files = {each.__name__: variant(each) for each in modules}
     for name, function in list(names.items()):
         if isinstance(function, FunctionType) and function.__module__ in files:
             twin = FunctionType(function.__code__, names, name)
-            twin.__qualname__ += variant
+            twin.__qualname__ += files[function.__module__]
             names[name] = make(name, twin)
     return names
 
@@ -206,8 +207,13 @@ def _kept(make: Callable[[bool], Any]) -> Any:
 def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant: str,
               allocating: bool, entries: Container[str] | None, instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
-    # numba's cache on disk watches the file of a function alone, not what is inlined from another
-    stamp = crc32(b"".join(Path(str(each.__file__)).read_bytes() for each in _below(module)))
+
+    def named(module: ModuleType) -> str:
+        """numba's cache on disk watches the file of a function alone, not what is inlined from another. So
+        names hold what is below their own module, whichever kernel they are compiled for: what several call
+        is compiled once."""
+        stamp = crc32(b"".join(Path(str(each.__file__)).read_bytes() for each in _below(module)))
+        return f"{variant}_{stamp:x}_"
 
     def make(name: str, twin: FunctionType) -> Any:
         inline = name in inlined or hasattr(error_free, name)
@@ -215,4 +221,4 @@ def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant:
             "_nrt": allocating, "no_cfunc_wrapper": True,
             "no_cpython_wrapper": entries is not None and name not in entries}
         return njit(cache=cache, error_model="numpy", forceinline=inline, **options)(twin)
-    return twins(module, make, f"{variant}_{stamp:x}_", **instead)
+    return twins(module, make, named, **instead)

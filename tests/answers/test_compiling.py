@@ -4,11 +4,14 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from types import ModuleType
 
+import numpy as np
 import pytest
 
 from stabilab.answers.motions import compiling
 from stabilab.errors import InputError
+from stabilab.numbers import numba_door
 from stabilab.numbers.numba_door import installed
 
 TASKS_ONCE_MORE = """
@@ -49,3 +52,18 @@ def test_without_numba_or_a_folder_to_write_to_an_error_says_what_to_do(monkeypa
     monkeypatch.setattr(compiling, "installed", lambda: False)
     with pytest.raises(InputError, match="pip install numba"):
         compiling.compile_all()
+
+
+def test_no_name_has_two_values_in_modules_that_are_compiled_together():
+    """A function sees the names of all modules that are compiled with its own, and one that several kernels call is
+    compiled once for all of them."""
+    kernels = [kernel for kernel in compiling.kernels() if len(numba_door._below(kernel.module)) > 1]
+    modules = {each for kernel in kernels for each in (*numba_door._below(kernel.module), kernel.module)}
+    assert len(modules) == 5  # sums of twofold numbers, arcs, equilibria, rows, turns
+    values = {}
+    for module in modules:
+        for name, value in vars(module).items():
+            if not name.startswith("__") and name != "BELOW" and not isinstance(value, ModuleType):
+                other = values.setdefault(name, value)
+                assert other is value or np.array_equal(other, value), name
+    assert len({(str(kernel.inlined), str(kernel.options), kernel.variant) for kernel in kernels}) == 1
