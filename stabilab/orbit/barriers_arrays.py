@@ -359,7 +359,8 @@ INLINED = {"chosen", "where", "on_all", "on_rows", "product_size", "about", "for
            "larger", "root_of", "cube_root", "scale_of", "rotated", "barrier_roots", "largest_root", "either",
            "both", "largest_of_three", "only_one", "back", "polynomial", "third", "height", "margin"}
 BARRIERS = Kernel(sys.modules[__name__], "margins", 3.0, INLINED,
-                  instead={"where": chosen, "either": both, "on_rows": on_all}, options={"allocating": False})
+                  instead={"where": chosen, "either": both, "on_rows": on_all},
+                  options={"allocating": False, "entries": {"margins"}})
 BY_NUMPY = 2.5e-7  # s of a processor: the margin of a row
 
 

@@ -13,7 +13,7 @@ from ..numbers.numba_door import Kernel, installed
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
 from . import rows_kernel, turns_kernel
-from .arc_kernel import INLINED
+from .arc_kernel import ENTRIES, INLINED
 from .extremes import precise_extremes
 from .fate_arrays import CHUNK, FateResult, fate_on_orbit, fates, rows_beyond_doubles
 from .landscape import Landscape, landscape
@@ -48,8 +48,8 @@ def open_extremes(land: Landscape, states: np.ndarray, labels: np.ndarray):
 REACH = 3.45  # of t: beyond, the weights of double-exponential nodes are 1e-20
 LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
 HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
-KERNELS = {"rows": Kernel(rows_kernel, "rows", 10.0, INLINED),
-           "turns": Kernel(turns_kernel, "turns", 4.0, INLINED)}
+KERNELS = {"rows": Kernel(rows_kernel, "rows", 10.0, INLINED, options=ENTRIES),
+           "turns": Kernel(turns_kernel, "turns", 4.0, INLINED, options=ENTRIES)}
 # s of a processor: a row in plain Python, and what the period of one all round a circle takes beside
 ROW, PERIOD_OF_TURN = {"rows": 4e-4, "turns": 1.5e-4}, 3e-3
 

@@ -34,7 +34,7 @@ from ..physics.scene import AnyScene, Scene
 from ..physics.states import equilibrium_mask
 from ..representation import Compared, Shown
 from . import equilibria_kernel
-from .arc_kernel import INLINED
+from .arc_kernel import ENTRIES, INLINED
 from .barriers_arrays import margins_of
 from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_at_rest
 from .landscape import Landscape, in_doubles, landscape
@@ -457,7 +457,7 @@ def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, unit: flo
     return ~settled
 
 
-MARGINS = Kernel(equilibria_kernel, "margins", 3.0, INLINED)
+MARGINS = Kernel(equilibria_kernel, "margins", 3.0, INLINED, options=ENTRIES)
 
 
 def at_rest(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]):

@@ -54,7 +54,7 @@ WHY = {enclosure_kernel.DONE: Sentence("enclosure-done", "enclosed")(),
        enclosure_kernel.ENDLESS: Sentence(
            "enclosure-step-below-grain", "lost: a step would be below the grain of time")()}
 STEP = 1.5e-2  # s of a processor: a step in plain Python
-ADVANCE = Kernel(enclosure_kernel, "advance", 6.0)
+ADVANCE = Kernel(enclosure_kernel, "advance", 6.0, options={"entries": {"advance"}})
 TOO_LONG = Sentence("enclosure-too-long", "too long to enclose")()
 
 
