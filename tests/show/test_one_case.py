@@ -309,3 +309,12 @@ def test_a_limit_far_from_the_motion_is_not_in_its_picture():
 def test_numbers_at_an_edge_are_round_and_keep_off_the_corners(middle, half, least, told):
     box = Box((middle,) * 3, (half,) * 3)
     assert box.ticks(0, least) == pytest.approx(told)
+
+
+def test_the_page_of_a_dual_spin_craft_has_its_rotations_and_the_speed_from_which_one_alone_attracts():
+    """At a spin of w1, by hand, (400 - 350) w1 N m s of the wheel: 5 w1 of its speed, w1 = 61 rpm."""
+    item = subject(load(CASES / "dual-spin-damper.toml"))
+    rows = one_case.facts(item, item.motion, units_of(item.case))
+    assert [name for name, _ in rows if name.startswith("rotation ")] == [f"rotation {n}" for n in range(1, 5)]
+    assert [text for name, text in rows if name == "one alone attracts from"][1].startswith(
+        "319.395 N m s, flywheel at 305 rpm")

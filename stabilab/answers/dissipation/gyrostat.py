@@ -181,6 +181,14 @@ def of_case(case: Case, angle: float) -> GyrostatSpin:
     return _over_the_box(case, spinner, result) if case.uncertain and result.end is not None else result
 
 
+def at_start(case: Case) -> Rotations:
+    """All rotations at the angular momentum of the start of a free body with wheels, without a run."""
+    spinner = Gyrostat.made(case)
+    sphere = spinner.sphere
+    return Rotations(float(spinner.size), described(spinner.scene, sphere), threshold_of(case, sphere),
+                     reason=why(sphere))
+
+
 def _answered(case: Case, spinner: Gyrostat, angle: float) -> GyrostatSpin:
     sphere = spinner.sphere
     result = GyrostatSpin(

@@ -14,6 +14,7 @@ import numpy as np
 
 from ...answers.caveats import of_case
 from ...answers.certificate import certificate
+from ...answers.dissipation.gyrostat import at_start
 from ...answers.equilibria import equilibria
 from ...answers.motion import Needs, motion
 from ...answers.uncertain.fate import uncertain
@@ -39,6 +40,7 @@ from ..text.badge import badge
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
 from ..text.motion import circular_orbit_text, constants, margins, orbit_headline, shown, state
+from ..text.rotations import rotation_rows
 from ..text.scene import fates, key_columns, latex, of_all_combinations, of_motions
 from ..text.stuck import burn_headline, burn_text, burn_undecided
 from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
@@ -305,6 +307,9 @@ def facts(item, motion, units) -> list[tuple[str, str]]:
     explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_reason else {})
     result += [(name, text + explained.get(name, "")) for name, text in margins(motion, units)]
     result += [("margin, rate", units.said(motion.velocity_reason))] if motion.velocity_reason else []
+    if motion.ending is not None and motion.ending.angular and any(case.scene.vector("gyrostat")):
+        rows = rotation_rows(case, at_start(case), units)
+        result += [(name or rows[n - 1][0], text) for n, (name, text) in enumerate(rows)]
     result += [("frame", frame.lines(case)[0].removeprefix("frame: "))] if axes else []
     result += [(f"axis {name}", text) for name, text in axes]
     return [(name, printed(text)) for name, text in (*result, *constants(motion, units))]

@@ -60,12 +60,16 @@ def rotations_text(case, result: Rotations, units: Units) -> str:
              row("|H|", f"{number(result.momentum, DIGITS)} N m s")]
     if spin:
         lines += _course(spin, units)
-    lines += [row(f"rotation {n}", _line(case, item, units)) for n, item in enumerate(result.rotations, 1)]
-    if result.threshold is not None:
-        lines += _threshold_lines(result.threshold, units)
+    lines += [row(*fact) for fact in rotation_rows(case, result, units)]
     if spin and spin.steps:
         lines.append(row("cost", f"{spin.steps} steps"))
     return "\n".join([*lines, f"why: {units.said(result.reason)}"])
+
+
+def rotation_rows(case, result: Rotations, units: Units) -> list[tuple[str, str]]:
+    """(name, words) of each rotation, and from which speed of the wheels on one alone attracts."""
+    rows = [(f"rotation {n}", _line(case, item, units)) for n, item in enumerate(result.rotations, 1)]
+    return rows if result.threshold is None else rows + _threshold_rows(result.threshold, units)
 
 
 def _headline(case, result: Rotations, spin: GyrostatSpin | None, units: Units) -> str:
@@ -121,15 +125,15 @@ def _line(case, item: SteadyRotation, units: Units) -> str:
     return "; ".join(parts)
 
 
-def _threshold_lines(item: WheelThreshold, units: Units) -> list[str]:
+def _threshold_rows(item: WheelThreshold, units: Units) -> list[tuple[str, str]]:
     if not item.factor:
-        return [row("one alone attracts", "at this |H|, however fast the wheels")]
+        return [("one alone attracts", "at this |H|, however fast the wheels")]
     at = f"{number(item.moment, DIGITS)} N m s of the wheels, {number(item.factor, SHORT)} times that of now"
-    lines = [row("one alone attracts from", f"{at}{_speeds(item.wheels)}, at this |H|")]
+    rows = [("one alone attracts from", f"{at}{_speeds(item.wheels)}, at this |H|")]
     if item.at_rate is not None and item.rate is not None:
         at = f"{number(item.at_rate, DIGITS)} N m s{_speeds(item.at_rate_wheels)}"
-        lines.append(row("", f"{at}, at a spin of {units.rate(item.rate)} about their axis"))
-    return lines
+        rows.append(("", f"{at}, at a spin of {units.rate(item.rate)} about their axis"))
+    return rows
 
 
 def _speeds(wheels: tuple[tuple[str, float], ...]) -> str:
