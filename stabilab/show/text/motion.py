@@ -304,11 +304,13 @@ def attitude_text(case, result, units: Units) -> str:
 
 
 def top_key(top: TopRates | None) -> dict:
-    """What is known of the spin of a top and its lean, rad/s and rad, under `top`; nothing of other bodies.
-    """
+    """What is known of the spin of a top and its lean, in rad/s, rad and s, under `top`; nothing of other
+    bodies."""
     return {} if top is None else {"top": {
         "spin": top.spin, "lean": top.lean, "steady_precession": list(top.steady),
-        "steady_stable": list(top.stable), "steady_nutation": list(top.nutation), "least_spins": top.spins,
+        "steady_stable": list(top.stable),
+        "steady_nutation_periods": [rate and 2 * math.pi / rate for rate in top.nutation],
+        "least_spins": top.spins,
         "unstable_upright": top.upright, "unstable_hanging": top.hanging}}
 
 
