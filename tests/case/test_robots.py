@@ -261,6 +261,8 @@ SDF = "<link name='{}'><inertial><mass>1</mass><inertia><ixx>3</ixx><iyy>2</iyy>
     ("<mujoco><worldbody>\n" + BODY.format("a").replace("name='a'", "name='a' quat='1 0 0 0' euler='0 0 0'")
      + "</worldbody></mujoco>", 2, "in two ways"),
     ("<sdf>\n<model name='m'><link name='a'/></model></sdf>", 2, "no link has an <inertial>"),
+    ("<sdf>\n<model name='hall'><static>true</static></model></sdf>", 2, "static models alone (hall), which do not move: take"),
+    ("<sdf>\n<world name='w'><include><uri>model://sun</uri></include></world></sdf>", 1, "model://sun, which it includes, is not beside"),
     ("<sdf>\n<model name='m'/>\n<model name='n'/></sdf>", 1, "the models m, n move freely"),
     ("<sdf><model>" + SDF.format("a") + "\n" + SDF.format("b") + "</model></sdf>", 2, "no joint ties link b"),
     ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<pose>1 2 3</pose><inertial>") + "</model></sdf>", 2, "six numbers"),
@@ -411,7 +413,7 @@ def test_bodies_of_files_that_a_model_of_mujoco_includes(tmp_path, stabilab):
     (tmp_path / "parts/b.xml").write_text("<mujoco><body name='b' euler='0 0 0.5'>"
                                           "<inertial pos='1 0 0' mass='2' diaginertia='1 2 2.5'/></body></mujoco>")
     code, out, err = stabilab("import", tmp_path / "own.xml")
-    assert code == 0, err
+    assert code == 0 and "read with it: parts/set.xml, parts/b.xml" in err
     J = moments(1, np.diag([3.0, 2, 4]), np.eye(4)) + moments(
         2, np.diag([1, 2, 2.5]), placed([0, 0, 0], Rotation.from_euler("z", 0.5)) @ placed([1, 0, 0], Rotation.identity()))
     assert read_back(out)[2] == pytest.approx(about_mass_centre(J)[2], abs=1e-10)

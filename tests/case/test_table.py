@@ -86,3 +86,22 @@ def test_keys_of_a_sweep_vary_together(case_file, stabilab):
 def test_a_fault_of_keys_that_vary_together(case_file, stabilab, sweep, words):
     code, _, err = stabilab("fate", case_file(SWEEP + sweep))
     assert code == 2 and words in err
+
+
+LINKS = ("Link Name,Center of Mass X,Center of Mass Y,Center of Mass Z,Center of Mass Roll,Mass,Moment Ixx,Moment Ixy,Moment Ixz,"
+         "Moment Iyy,Moment Iyz,Moment Izz\nbase,0.1,0,0.2,{},4,3,0.1,0,2,0,1.5\nmark,0,0,0,0,0.0,0,0,0,0,0e-3,0\n")
+
+
+def test_a_link_without_mass_is_left_out_of_solidworks_table(imported):
+    (case,), _ = imported(LINKS.format(0))
+    assert case.title == "base" and case.scene.body.mass == 4 and case.frame is not None
+    assert "without mass and moments are left out: mark" in case.caveats[0].words
+
+
+@pytest.mark.parametrize("text, line, words", [
+    (LINKS.format(0.1), 2, "Center of Mass Roll: expected 0, got 0.1"),
+    ("\n".join((LINKS.splitlines()[0], LINKS.splitlines()[2])), 1, "every row has the mass 0")])
+def test_a_link_along_other_axes_or_a_table_of_marks_is_a_fault(tmp_path, stabilab, text, line, words):
+    (tmp_path / "own.csv").write_text(text)
+    code, _, err = stabilab("import", tmp_path / "own.csv")
+    assert code == 2 and f"own.csv:{line}: " in err and words in err

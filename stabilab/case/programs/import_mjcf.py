@@ -58,7 +58,7 @@ class _Model(NamedTuple):
 def read(text: str, path: Path, body: str | None = None) -> Craft:
     """What the model says. Raises InputError where no body, or more than one free of each other, has mass."""
     root = tree(text, path)
-    _include(root, os.path.dirname(os.path.abspath(path)), (os.path.basename(path),))
+    files = _include(root, os.path.dirname(os.path.abspath(path)), (os.path.basename(path),))
     compiler = _compiler(root)
     worlds = [*root.all("worldbody")]
     for element in (element for world in worlds for element in world.within() if element.tag in NOT_READ):
@@ -79,6 +79,7 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
         raise free(root, f"the bodies {names}", "body")
     craft = Craft(root.attributes.get("model", "") or "model")
     unread(craft, [root], WORDS)
+    craft.said += [f"read with it: {', '.join(dict.fromkeys(files))}"] if files else []
     if model.shaped:
         craft.said.append("mass and moments are those of shapes of uniform density, as MuJoCo has them: "
                           f"{listed(model.shaped)}")
@@ -91,12 +92,13 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     return combined(craft, pieces, outermost[0][1], "body", model.locked, body, path)
 
 
-def _include(element: Element, folder: str, above: tuple[str, ...]) -> None:
-    """Put what is in files of `<include>`, which count from the folder of the model, in their place."""
-    children = []
+def _include(element: Element, folder: str, above: tuple[str, ...]) -> list[str]:
+    """Put what is in files of `<include>`, which count from the folder of the model, in their place; their
+    names."""
+    children, names = [], []
     for child in element.children:
         if child.tag != "include":
-            _include(child, folder, above)
+            names += _include(child, folder, above)
             children.append(child)
             continue
         name = child.attributes.get("file", "")
@@ -107,9 +109,10 @@ def _include(element: Element, folder: str, above: tuple[str, ...]) -> None:
         if name in above:
             raise child.fault(f"{name} includes itself", "file")
         inner = tree(source_text(path, LARGEST_IMPORT), Path(path))
-        _include(inner, folder, (*above, name))
+        names += [name, *_include(inner, folder, (*above, name))]
         children += inner.children
     element.children = children
+    return names
 
 
 def _compiler(root: Element) -> _Compiler:

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import printable
-from .imported import Craft
+from .imported import Craft, listed
 from .joined_links import joined_links, placed
 from .parts import of_quaternion, turn, turn_of_radians
 from .rigid_pieces import Frame, Piece, judge_inertials, piece, tensor_of, unread
@@ -53,19 +53,22 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
 def _model(root: Element) -> Element:
     """The only model that may move, of the file or of its world."""
     holders = (root, *root.all("world"))
-    models = [model for holder in holders for model in holder.all("model")
-              if text_in(model, "static") not in ("true", "1")]
+    own = [model for holder in holders for model in holder.all("model")]
+    models = [model for model in own if text_in(model, "static") not in ("true", "1")]
     missing: list[str] = []
     for holder in holders:
         files, left = included(holder)
         models += [model for include, model in files
                    if text_in(include, "static", text_in(model, "static")) not in ("true", "1")]
         missing += left
+    if own and not models:
+        raise own[0].fault(f"static models alone ({listed([model.name for model in own])}), which do not "
+                           "move: take <static> away from the one that is meant")
     if len(models) != 1:
         names = ", ".join(printable(model.name) for model in models)
         raise root.fault(f"the models {names} move freely of each other: put the one that is meant into a "
                          "file of its own" if models else
-                         "no model that is not static: expected <model> with links"
+                         "no model: expected <model> with links"
                          + (f"; {missing[0]}, which it includes, is not beside it: import that file"
                             if missing else ""))
     return models[0]
