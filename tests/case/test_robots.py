@@ -283,6 +283,10 @@ def test_bodies_that_are_free_of_each_other_are_no_rigid_body(tmp_path, stabilab
     code, _, err = stabilab("import", tmp_path / "own.xml")
     assert code == 2 and "the bodies a, b move freely of each other" in err
     assert stabilab("import", tmp_path / "own.xml", "--body", "b")[0] == 0
+    (tmp_path / "own.xml").write_text("<mujoco><worldbody>" + "\n".join([BODY.format("").replace(" name=''", "")] * 20) + "</worldbody></mujoco>")
+    code, _, err = stabilab("import", tmp_path / "own.xml")
+    assert code == 2 and "the bodies body in line 1, body in line 2," in err and "body in line 12 and 8 more move freely" in err
+    assert stabilab("import", tmp_path / "own.xml", "--body", "body in line 7")[0] == 0
 
 
 ODD = ("<link name='{}'><inertial><origin xyz='0.1 0 0.2'/><mass value='{}'/><inertia ixx='{}' iyy='{}' izz='{}' ixy='{}' ixz='0' "

@@ -17,7 +17,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import printable
 from ...numbers.exact import precise, sqrt_fraction
 from ..source import LARGEST_IMPORT, source_text
 from .imported import Craft, listed
@@ -71,11 +70,11 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
             first = len(pieces)
             _walk(element, frame, inner, model)
             if any(item.part.mass for item in pieces[first:]):
-                outermost.append((element.name, frame, first))
+                outermost.append((pieces[first].name, frame, first))
     judge_inertials(root, "body", bool(outermost), '<inertial pos="..." mass="..." diaginertia="..."/>',
                     f"; for moments of meshes {COMPILED}")
     if len(outermost) > 1 and body is None:
-        names = ", ".join(printable(name) for name, _, _ in outermost)
+        names = listed([name for name, _, _ in outermost])
         raise free(root, f"the bodies {names}", "body")
     craft = Craft(root.attributes.get("model", "") or "model")
     unread(craft, [root], WORDS)

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import printable
 from .imported import Craft, listed
 from .joined_links import joined_links, placed
 from .parts import of_quaternion, turn, turn_of_radians
@@ -65,7 +64,7 @@ def _model(root: Element) -> Element:
         raise own[0].fault(f"static models alone ({listed([model.name for model in own])}), which do not "
                            "move: take <static> away from the one that is meant")
     if len(models) != 1:
-        names = ", ".join(printable(model.name) for model in models)
+        names = listed([model.name for model in models])
         raise root.fault(f"the models {names} move freely of each other: put the one that is meant into a "
                          "file of its own" if models else
                          "no model: expected <model> with links"
