@@ -131,15 +131,18 @@ def _turn_lengths(item: Subject, t: np.ndarray, omega: np.ndarray) -> Callable[[
                 lengths[n] = (t[b] - t[a]) / turns
             starts[n] = (t[a] + t[b]) / 2
         return lambda at: float(np.interp(at, starts, lengths))
-    for _ in range(TRIED):
-        rows = [np.linspace(a, a + length, PROBED) for a in starts]
-        followed, states = along(item, np.unique(np.concatenate(rows)), t[::10])
-        parts = [states[(followed >= row[0]) & (followed <= row[-1])] for row in rows]
+    sizes = [length / CUT**n for n in range(TRIED)]
+    rows = [[np.linspace(a, a + size, PROBED) for a in starts] for size in sizes]
+    every = np.unique(np.concatenate([row for tried in rows for row in tried]))
+    followed, states = along(item, every, t[::10])  # in one run, which takes far longer than its places do
+    others = ~np.isin(followed, every)  # where each time costs many digits
+    for size, tried in zip(sizes, rows):
+        parts = [states[(followed >= row[0]) & (followed <= row[-1]) & (others | np.isin(followed, row))]
+                 for row in tried]
         counted = [often(part.tolist()) if len(part) > 2 else 0 for part in parts]
         for n, count in enumerate(counted):
             if 1 < count <= PROBED / FEW:
-                lengths[n] = length / count
+                lengths[n] = size / count
         if max(counted) <= PROBED / FEW:
             break
-        length /= CUT
     return lambda at: float(np.interp(at, starts, lengths))
