@@ -159,6 +159,7 @@ def many_panel(ax, result):
     """Time against digits, a line a question, where formulas in balls give them."""
     ax.set(xscale="log", yscale="log", xlabel="digits, each proved", ylabel="processor time (s)",
            title="beyond doubles: formulas in balls")
+    ax.margins(y=0.12)  # the word at the end of each line stands above it
     for question, looks in MANY_LOOKS.items():
         points = [item for item in result.many if item.question == question]
         ax.plot([item.digits for item in points], [item.seconds for item in points], markersize=5,

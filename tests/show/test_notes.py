@@ -10,7 +10,7 @@ from stabilab.errors import Caveat, Kind
 from stabilab.reasons import Level, Rate, Sentence, Time
 from stabilab.show import limiting, style
 from stabilab.show.limiting import Note
-from stabilab.show.plot import canvas
+from stabilab.show.text.notes import fitted
 from stabilab.show.units import SI
 from tests.house.sentences import sentences
 
@@ -45,7 +45,7 @@ def test_notes_take_few_lines_and_the_first_is_never_lost(size, most):
         for _ in range(150):
             brief = [f"brief {n} {'x' * int(random.integers(3, 36))}" for n in range(int(random.integers(1, 9)))]
             notes = [Note(f"{text} {'full ' * int(random.integers(0, 25))}end", text) for text in brief]
-            lines = canvas.fitted(notes, size[0]).split("\n")
+            lines = fitted(notes, size[0]).split("\n")
             said = " ".join(lines)
             assert len(lines) <= most and brief[0] in said
             assert max(map(len, lines)) <= 1 + (size[0] - 0.3) / (0.008 * style.share() * 8.5)

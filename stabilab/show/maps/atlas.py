@@ -24,7 +24,7 @@ from ...packages import demand
 from .. import limiting, style
 from ..axes import axes_of
 from ..data import as_json, csv_lines, endless
-from ..terminal import lettered
+from ..text import questions
 from ..units import SHORT, Units, with_unit
 from .shades import FATES, limits_of, of_every_point, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, per_cent, write
@@ -185,8 +185,7 @@ def limit_words(atlas: Atlas, units: Units) -> str:
         return f"|ω| < {units.rate(limit.limits[0], SHORT)}"
     if limit.kind in ("tilt", "nutation", "nutation_below"):
         return f"{limit.names[0]} by {units.angle(limit.limits[0], SHORT)}"
-    printed = " or ".join(dict.fromkeys(units.rate(item, SHORT) for item in limit.limits))
-    return printed if limit.kind == "rate" else f"{' or '.join(map(lettered, limit.names))} = {printed}"
+    return units.rate(limit.limits[0], SHORT) if limit.kind == "rate" else questions.asked(limit, units)
 
 
 def _wheels(atlas: Atlas, units: Units) -> list[str]:

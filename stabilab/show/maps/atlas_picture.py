@@ -19,6 +19,7 @@ from ...packages import demand
 from .. import style
 from ..axes import axes_of
 from ..report import html
+from ..text import notes
 from ..units import SHORT, Units, number
 from .atlas import (
     answer,
@@ -33,7 +34,7 @@ from .atlas import (
     wheel_words,
 )
 from .atlas import text as in_words
-from .shades import hatched, light, scale
+from .shades import hatched, light, limits_of, scale
 from .sweep import COUNTS
 
 # --- The map of the sphere
@@ -119,8 +120,8 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     down, across = (len(shown), 1) if alone else (len(wheels), len(shown))
     figure, axes = plt.subplots(down, across, squeeze=False, layout="constrained",
                                 figsize=size
-                                or ((7.8, 4.05 * down + 0.5) if alone
-                                    else (5.4 * across + 0.4, 2.75 * down + 1.2)))
+                                or ((7.8, 4.05 * down + 0.8) if alone
+                                    else (5.4 * across + 0.4, 2.75 * down + 1.5)))
     times = _times(atlas, units)
     for n, wheel in enumerate(wheels):
         for m, kind in enumerate(shown):
@@ -134,6 +135,9 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     figure.suptitle(f"{style.literal(atlas.asked.case.title or atlas.asked.case.name)}\ntorque of "
                     f"{units.torque(float(atlas.asked.torque))} in every direction",
                     fontsize=10.5, wrap=True)
+    records = np.concatenate([atlas.records, atlas.named_records])
+    case = atlas.asked.case
+    style.legend(figure, [], notes=notes.below(figure, case, limits_of(case, records)))
     return figure
 
 
@@ -170,7 +174,7 @@ def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) 
         hatched(ax, on(x)[0] * ACROSS, on(y)[:, 0] * UP, on(labels),
                 {n: (kind_hatch(*key), _letter(atlas, *key)) for n, (key, _, _) in enumerate(kinds(atlas))})
     ax.plot(*rim().T, color=style.BLACK, linewidth=0.9)
-    _points(ax, atlas, wheel, plain)
+    _points(ax, atlas, wheel, plain, list(ax.texts))
 
 
 def _letter(atlas: Atlas, fate: int, axis: int, island: int) -> str:
@@ -180,8 +184,9 @@ def _letter(atlas: Atlas, fate: int, axis: int, island: int) -> str:
     return axes_of(atlas.asked.case).signed(abs(axis), axis).partition(" ")[0].replace("-", "\u2212")
 
 
-def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
-    """Axes and thrusters with their names, on light ground that lets them be read."""
+def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool, names: list[Any]) -> None:
+    """Axes and thrusters with their names, on light ground that lets them be read, beside the names of areas.
+    """
     from matplotlib.patheffects import withStroke
     halo = [withStroke(linewidth=2.4, foreground="white")]
     here = [n for n, point in enumerate(atlas.named) if point.wheel == wheel]
@@ -189,6 +194,10 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
     # points of a unit of the map, roughly
     scale = (ax.figure.get_figwidth() * 72 * 0.9
              / (ax.get_subplotspec().get_gridspec().ncols * 2.08 * ACROSS))
+    for name in names:
+        at, half = np.array(name.get_position()) * scale, 0.31 * name.get_fontsize() * len(name.get_text())
+        tall = 0.6 * name.get_fontsize()
+        taken.append((at[0] - half, at[0] + half, at[1] - tall, at[1] + tall))
     for n, location in zip(here, on_map(atlas.named_directions[here])):
         point = atlas.named[n]
         on_axis = point.level == AXES
@@ -202,7 +211,7 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
         label = _label(atlas, n, plain)
         at, wide = location * scale, 0.62 * size * len(label)
         for side, up in ((right, 3 if location[1] > -UP * 0.98 else -9), (right, -11), (not right, 3),
-                         (not right, -11)):
+                         (not right, -11), (right, 14), (right, -22)):
             left = at[0] + (5 if side else -5 - wide)
             box = (left, left + wide, at[1] + up, at[1] + up + size)
             if not any(box[0] < b and a < box[1] and box[2] < d and c < box[3] for a, b, c, d in taken):

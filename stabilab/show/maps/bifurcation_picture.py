@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...answers.caveats import of_case
 from ...answers.circular_orbit import CircularOrbit, followed
 from ...case.read import Case
 from ...equilibrium.circular_orbit import OrbitEquilibrium
@@ -18,6 +19,7 @@ from ...maps.bifurcation.plane import Plane, Strip
 from ...maps.bifurcation.plane import rows as arcs_of
 from ...numbers.vectors import dot
 from .. import style
+from ..text import notes
 from ..units import Units, units_of, with_unit
 from .shades import light, mark_own, own_values
 
@@ -102,7 +104,8 @@ def _drawn(case: Case, result: CircularOrbit, rows: Any, units: Units, plt: Any)
     figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of equilibria, two or "
                     "more a line", x=0.02, ha="left", fontsize=10.5, wrap=True)
     kinds = dict.fromkeys(branch.verdict for branch in rows)
-    style.legend(figure, {VERDICT_LABELS[kind]: style.MEANING[kind] for kind in kinds} | own[0])
+    style.legend(figure, {VERDICT_LABELS[kind]: style.MEANING[kind] for kind in kinds} | own[0],
+                 notes=notes.below(figure, case, of_case(case)))
     return figure
 
 
@@ -137,7 +140,9 @@ def drawn(result: Diagram | Plane, size: tuple[float, float] | None, plt: Module
     figure = _line(result, size, plt) if isinstance(result, Diagram) else _plane(result, size, plt)
     handles, text = figure.axes[0].get_legend_handles_labels()
     retained = dict(zip(text, handles))
-    style.below(figure, list(retained.values()), list(retained))
+    case = result.family.case
+    style.below(figure, list(retained.values()), list(retained),
+                notes=notes.below(figure, case, of_case(case)))
     return figure
 
 
@@ -210,7 +215,7 @@ def _plane(result: Plane, size: tuple[float, float] | None, plt: ModuleType) -> 
     bands = [band for strip in result.strips for band in _bands(result, strip) if band["p"]]
     for band in bands:
         ax.fill_between(band["p"], band["low"], band["high"], facecolor=FILLS.get(band["count"], OTHER),
-                        linewidth=0, zorder=0)
+                        edgecolor=FILLS.get(band["count"], OTHER), linewidth=0.5, zorder=0)
     for strip in result.strips:
         values, arcs = arcs_of(result, strip)
         for arc, row in zip(strip.arcs, arcs):

@@ -16,9 +16,11 @@ from ...maps.run import changes, known_exactly
 from ...orbit.result import OUTCOMES, Fate
 from ...packages import demand
 from .. import endings, style
+from ..limiting import Note
 from ..plot import basins as basin_picture
 from ..plot.to_file import check_size
 from ..terminal import written
+from ..text import notes
 from ..units import Units, number, units_of, with_unit
 from . import basins as basin_data
 from . import shades
@@ -64,7 +66,7 @@ def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> 
             ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
         ax.set_xlim(x.min(), x.max())
         rows |= shades.mark_own(ax, [shades.own_value(plan, _dimension(data, plan, along))])
-    style.legend(figure, rows)
+    style.legend(figure, rows, notes=_notes(figure, data))
     return figure
 
 
@@ -176,8 +178,14 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
                        or (np.asarray(data[kind]) == n).any()]
             bar.set_ticks(numbers, labels=[CELLS.get(n, str(n)) for n in numbers])
             bar.ax.tick_params(length=0)
-    style.legend(figure, rows)
+    style.legend(figure, rows, notes=_notes(figure, data))
     return figure
+
+
+def _notes(figure: Any, data: xarray.Dataset) -> str:
+    """What limits the answers of a file, as it stands there, for its legend."""
+    text = written(str(data.attrs.get("caveats", "")))
+    return notes.fitted([Note(text, "the file has caveats")] if text else [], figure.get_figwidth())
 
 
 def _unit(data, name) -> str:
@@ -379,6 +387,7 @@ def _histograms(data, kind, size, plt):
         if "fate" in data:
             ax.legend(loc="best")
     axes[0, 0].set_title(f"{_title(data)}: {data.sizes[shades.SAMPLE]:,} samples", loc="left", wrap=True)
+    style.legend(figure, [], notes=_notes(figure, data))
     return figure
 
 
@@ -396,7 +405,7 @@ def _shares(data, moving, size, plt):
     shades.furnish(ax, data, moving[0])
     ax.set_ylabel(f"share of {data.sizes[shades.SAMPLE]:,} samples (%)")
     ax.set_title(_title(data), loc="left", wrap=True)
-    style.legend(figure, rows)
+    style.legend(figure, rows, notes=_notes(figure, data))
     return figure
 
 

@@ -11,6 +11,7 @@ from ...errors import cell, key
 from ...maps.bifurcation.rotations import RotationDiagram, RotationPiece, sampled
 from .. import frame, limiting, style
 from ..data import as_json, csv_lines
+from ..text import notes
 from ..text.motion import in_file
 from ..units import SHORT, Units, number, units_of, with_unit
 from .bifurcation_picture import counts_above
@@ -18,6 +19,8 @@ from .bifurcation_picture import counts_above
 DIGITS = 10  # of a value
 HEADS = {"minimum": "least energy", "saddle": "saddles", "maximum": "most energy",
          "inflection": "inflections"}
+# of one colour with saddles
+DOTS: dict[str, dict[str, Any]] = {"maximum": {"marker": "^", "markersize": 2.5, "markevery": 2}}
 LOOKS = {"minimum": style.MEANING["stable"], "saddle": style.MEANING["unstable"],
          "maximum": style.MEANING["unstable"] | {"linestyle": "-."}, "inflection": style.MEANING["undecided"]}
 
@@ -125,7 +128,7 @@ def _drawn(result: RotationDiagram, plt: Any) -> Any:
             x.append(value)
             y.append(item.energy)
     dots = {"linestyle": "none", "marker": ".", "markersize": 3}
-    looks = {nature: LOOKS[nature] | dots for nature in points}
+    looks = {nature: LOOKS[nature] | dots | DOTS.get(nature, {}) for nature in points}
     for nature, (x, y) in points.items():
         ax.plot(x, y, **looks[nature])
     for change in result.changes:
@@ -140,5 +143,6 @@ def _drawn(result: RotationDiagram, plt: Any) -> Any:
             else f"{number(result.rate, 6)} rad/s about the wheels' axis")
     figure.suptitle(f"{style.literal(result.case.title or result.case.name)}\n{held}; in bold: how many "
                     "attract with losses", x=0.02, ha="left", fontsize=10.5, wrap=True)
-    style.legend(figure, [(HEADS[nature], looks[nature]) for nature in HEADS if nature in points])
+    style.legend(figure, [(HEADS[nature], looks[nature]) for nature in HEADS if nature in points],
+                 notes=notes.below(figure, result.case, of_case(result.case)))
     return figure

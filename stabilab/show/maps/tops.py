@@ -11,6 +11,7 @@ from ...errors import cell, key
 from ...maps.bifurcation.tops import HANGING, UPRIGHT, TopDiagram, TopPiece, TopState, sampled
 from .. import frame, limiting, style
 from ..data import as_json, csv_lines
+from ..text import notes
 from ..units import SHORT, Units, number, units_of, with_unit
 from .bifurcation_picture import counts_above
 
@@ -129,7 +130,8 @@ def _drawn(result: TopDiagram, plt: Any) -> Any:
                     "integral of the upright or the hanging top; in bold: upright", x=0.02, ha="left",
                     fontsize=10.5, wrap=True)
     shown = [word for word in (STABLE, UNSTABLE) if any(_word(stable) == word for _, _, stable in lines)]
-    style.legend(figure, [(word, style.MEANING[word]) for word in shown])
+    style.legend(figure, [(word, style.MEANING[word]) for word in shown],
+                 notes=notes.below(figure, result.case, of_case(result.case)))
     return figure
 
 

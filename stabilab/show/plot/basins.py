@@ -12,10 +12,11 @@ import numpy as np
 from ...errors import InputError, told
 from ...maps.basins import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ...packages import demand
-from .. import style
+from .. import limiting, style
 from ..axes import axes_of
 from ..maps.basins import basin_name, cells_of
-from ..maps.shades import drawn, hatched, look_of, mark_own, own_value, said, spinning
+from ..maps.shades import drawn, hatched, limits_of, look_of, mark_own, own_value, said, spinning
+from ..units import units_of
 from . import canvas
 
 if TYPE_CHECKING:
@@ -53,7 +54,9 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
         edge = ("" if math.isnan(rough.value)
                 else f"boundary: box dimension {rough.value:.3f} ± {rough.uncertainty:.3f}")
         return canvas.explained(target, rows if legend else [], ax is None,
-                                found.plan.case.title or found.plan.case.name, edge)
+                                found.plan.case.title or found.plan.case.name, edge,
+                                notes=limiting.notes(limits_of(found.plan.case, found.records), edge,
+                                                     units_of(found.plan.case)))
 
 
 def write(result: Basins, out: str | Path, size: tuple[float, float] | None = None,

@@ -12,6 +12,7 @@ import numpy as np
 from ...physics.effects.base import effect_words
 from .. import labels, style
 from ..axes import PLAIN
+from ..text.notes import fitted
 from ..units import number
 from . import canvas
 from . import subject as subjects
@@ -77,7 +78,7 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         if legend and not small:
             notes = [] if bare else canvas.notes_of_case(item, measures(item, units))
             style.legend(target.figure, rows, columns=1,
-                         notes=canvas.fitted(notes, target.figure.bbox.width / target.figure.dpi))
+                         notes=fitted(notes, target.figure.bbox.width / target.figure.dpi))
         if ax is None:
             labels.apart(target)
     return target

@@ -14,6 +14,7 @@ from ..axes import axes_of
 from ..limiting import Note
 from ..terminal import written
 from ..text import headline
+from ..text.notes import fitted
 from ..units import units_of
 from .subject import Measures, Subject
 
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
 TITLE_LINES = 2  # of a picture of its own; more stand below it
-NOTE_LINES, SMALL_LINES = 3, (1, 2)  # of notes below a picture; below a small one, in few words if need be
-COMMAND = "stabilab fate"  # which prints all notes
 AFTER_BURN = "the free motion after the last closing"
 BELOW = 0.14  # inches between axes in space and their legend, in a figure with room for it
 
@@ -80,24 +79,6 @@ def legend(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool,
         style.legend(ax.figure, rows, notes=fitted(notes, ax.figure.bbox.width / ax.figure.dpi))
     elif rows:
         ax.legend(*style.explained(rows), loc="best", fontsize="small")
-
-
-def fitted(notes: Sequence[Note], inches: float) -> str:
-    """Notes in lines that fit a figure of this width: in full, from the last on in few words where that takes
-    too many lines; of the last that have no room even so it says how many these are, never of the first."""
-    size = style.RC["legend.fontsize"] * style.share()
-
-    def lines(parts: Sequence[str]) -> list[str]:
-        return style.clauses("; ".join(parts), inches, size).split("\n") if parts else []
-    brief = [note.brief for note in notes]
-    forms = [[*(note.full for note in notes[:full]), *brief[full:]] for full in range(len(notes), -1, -1)]
-    forms += [[*brief[:shown], f"{len(notes) - shown} more: {COMMAND}"]
-              for shown in range(len(notes) - 1, 0, -1)]
-    for most in (NOTE_LINES,) if style.share() == 1 else SMALL_LINES:
-        for form in forms if most > 1 else forms[:len(notes) + 1]:
-            if len(found := lines(form)) <= most:
-                return "\n".join(map(style.literal, found))
-    return "\n".join(map(style.literal, found[:NOTE_LINES]))
 
 
 def answer(item: Subject, scale: Measures) -> str:

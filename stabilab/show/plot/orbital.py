@@ -9,6 +9,7 @@ import numpy as np
 
 from ...errors import InputError
 from .. import labels, limiting, style
+from ..text import notes
 from ..text.motion import grows_in, orbit_headline
 from ..units import SHORT, Units, number, units_of
 from . import canvas
@@ -65,7 +66,7 @@ def attitudes(item: Subject, ax: Axes | None = None, units: str | None = None,
             rows = [(words, look) for words, look in LOOKS.items() if words.split()[0] in verdicts]
             style.legend(figure, [*rows, *((f"axis {item.axes.full(n)}", {"color": colour, "linewidth": 2.0})
                                            for n, colour in enumerate(style.AXES, 1))],
-                         notes=canvas.fitted(limiting.notes(result.caveats, _title(result), system),
+                         notes=notes.fitted(limiting.notes(result.caveats, _title(result), system),
                                              figure.get_figwidth()))
         labels.apart(*panels)
     return panels[0]
