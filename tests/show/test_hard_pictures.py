@@ -164,3 +164,25 @@ def test_the_turn_of_a_body_into_its_wheel_is_drawn_before_the_nutation_that_is_
         assert np.nanmin(np.linalg.norm(drawn.T - at, axis=1)) < 0.3, t
     place = next(text for text in ax.texts if text.get_text().strip() == "start, 0 min").get_position_3d()
     assert np.linalg.norm(np.array(place) - [0, 0, 18.9]) < 1
+
+
+def test_many_turns_that_lose_energy_fill_one_side_of_the_sphere_and_leave_the_other():
+    """The body spins about its axis of symmetry and ends across it: over the upper half alone, though the lower one
+    has the same energies. By hand: that half has half of the area 4 pi |H|^2; what is drawn faces the eye."""
+    result = surfaces.losing_sphere(subject(CASES / "explorer-1-damped.toml"))
+    size = float(np.linalg.norm(result.swept[0, 0]))
+    assert result.swept[..., 2].min() > -0.02 * size and result.swept[..., 2].max() > 0.99 * size
+    assert not any(len(points) > 10_000 for points, *_ in result.lines)
+
+
+def test_beyond_a_saddle_a_route_fills_the_side_on_which_it_goes_on():
+    """Moments 1, 2, 3: above the saddle's energy 1/4 about +1, below it about +3, by (x^2 + y^2/2 + z^2/3)/2."""
+    ball, *_ = surfaces._ball(1.0)
+    energy = lambda H: (H**2 / (2 * np.array([1, 2, 3]))).sum(axis=-1)
+    route = np.array([[0.98, 0.1, 0.17], [0.7, 0.65, 0.3], [0.3, 0.9, 0.3], [0.1, 0.6, 0.79], [0.05, 0.1, 0.99]])
+    route /= np.linalg.norm(route, axis=1, keepdims=True)
+    middles = surfaces._swept(ball, energy(ball), route, energy(route), [0.25]).mean(axis=1)
+    assert energy(middles).max() < 0.5 and energy(middles).min() > 1 / 6
+    above = energy(middles) > 0.26
+    assert middles[above, 0].min() > 0 and middles[~above & (energy(middles) < 0.24), 2].min() > 0
+    assert above.any() and (energy(middles) < 0.2).any()

@@ -230,7 +230,8 @@ Look = dict[str, Any]
 @dataclass
 class SurfaceLines:
     """surface: triangles (n, 3, 3); box, view, labels: of the axes; title; lines: (points (n,
-    3), look, whether in front); marks: (points, look); rows: of the legend. All in the units of the axes."""
+    3), look, whether in front); marks: (points, look); rows: of the legend; swept: triangles (n, 3, 3) of
+    what many turns fill. All in the units of the axes."""
 
     surface: np.ndarray
     box: Box
@@ -240,6 +241,7 @@ class SurfaceLines:
     lines: list[tuple[np.ndarray, Look, bool]] = field(default_factory=list)
     marks: list[tuple[np.ndarray, Look]] = field(default_factory=list)
     rows: list[tuple[str, Look]] = field(default_factory=list)
+    swept: np.ndarray = field(default_factory=lambda: np.empty((0, 3, 3)))
 
     def add(self, points: np.ndarray, look: Look, outward: np.ndarray) -> None:
         """A line, in parts that lie in front of the surface and behind it; outward (n, 3): normals of the

@@ -153,6 +153,8 @@ def _broadside(plane, y, axis):
 # --- The sphere of the angular momentum of a body that no torque acts on, its polhodes and separatrices
 POLHODES = 13  # lines of other energies
 SPHERE_GRID = (361, 721)  # latitudes, longitudes
+BESIDE_SADDLE = 3e-4  # of the energies: so near to a saddle the two sides are less than two places apart
+STEP = 3  # of these latitudes that a facet of what turns fill reaches over
 FAR = {"alpha": 0.45, "markersize": 5.5}  # of a point behind the sphere
 LIFT = 1.002  # of a line off the sphere
 EXTREME = 1e-6  # of the range of energies: so near to its end a value is no saddle's
@@ -209,7 +211,9 @@ def _ball(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, Callable[...
 
 # --- The same of a body that loses energy inside: H goes over the levels of the energy to a minimum
 ROUTE = style.MEANING["this motion"] | {"linewidth": 1.1}
-MANY_TURNS = 60  # of a component: a line of more is drawn finer
+MANY_TURNS = 60  # of a component: of more, what they fill is drawn and some of them
+ALL_TURNS = "all its turns"
+SWEPT: dict[str, Any] = {"facecolor": style.VIOLET, "alpha": in_space.SHEER[style.VIOLET]}
 # of a rotation -> (words, its look as a point, as a circle)
 NATURES: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     MINIMUM: ("least energy: attracts", style.MARKER["centre"], style.MEANING["stable"]),
@@ -246,8 +250,19 @@ def losing_sphere(item: Subject) -> SurfaceLines:
         for line in levels(round_, up, height, values):
             points = at(*line.T)
             result.add(LIFT * points, look, points)
-    look = ROUTE if turning(route[:, 0]) < MANY_TURNS else ROUTE | {"linewidth": 0.45}
-    result.add(LIFT * route, look, route)
+    many = turning(route[:, 0]) >= MANY_TURNS
+    if many:
+        values = ((route - wheel) ** 2 / (2 * D)).sum(axis=1)
+        swept = _swept(ball, height, route, values, passes)
+        front = np.einsum("nij,j->ni", swept, sight(view)).min(axis=1) >= 0
+        result.swept = LIFT * swept[front]
+        for value in (values[0], (values[0] + values[-1]) / 2, values[-1]):
+            nearest = route[int(np.abs(values - value).argmin())]
+            turns = [at(*line.T) for line in levels(round_, up, height, [value])]
+            for points in sorted(turns, key=lambda line: np.linalg.norm(line - nearest, axis=1).min())[:1]:
+                result.add(LIFT * points, ROUTE, points)
+    else:
+        result.add(LIFT * route, ROUTE, route)
     shown: list[tuple[str, dict[str, Any]]] = []
     for rotation in () if flat else sphere.rotations:
         H, (name, mark, circle) = np.array(floats(rotation.momentum)), NATURES[rotation.nature]
@@ -260,10 +275,38 @@ def losing_sphere(item: Subject) -> SurfaceLines:
         if not rotation.axis:
             result.marks.append((LIFT * H[None], _seen(mark, H, view)))
     result.marks.append((LIFT * route[:1], style.MARKER["start"]))
-    result.rows = [("this motion", ROUTE), ("start", style.MARKER["start"]),
+    whole = [("this motion", ROUTE)]
+    if many:
+        whole = [("turns at its start, half-way in energy and end", ROUTE), (ALL_TURNS, SWEPT)]
+    result.rows = [*whole, ("start", style.MARKER["start"]),
                    *([("level of a saddle", style.MEANING["separatrix"])] if passes else []),
                    *([] if flat else [("other energies", style.MEANING["level"])]), *shown]
     return result
+
+
+def _swept(ball: np.ndarray, height: np.ndarray, route: np.ndarray, values: np.ndarray,
+           passes: Sequence[float]) -> np.ndarray:
+    """Triangles (n, 3, 3) of the part of the sphere that a route of falling energy goes over: between its
+    first and last energy, above and below each saddle on the side on which it is."""
+    from scipy.ndimage import label
+    count_up, count_round = height.shape
+    unit = route / np.linalg.norm(route, axis=1, keepdims=True)
+    row = np.rint((np.arcsin(np.clip(unit[:, 2], -1, 1)) / np.pi + 0.5) * (count_up - 1)).astype(int)
+    column = np.rint((np.arctan2(unit[:, 1], unit[:, 0]) / (2 * np.pi) + 0.5) * (count_round - 1)).astype(int)
+    low, high = float(values.min()), float(values.max())
+    gap = BESIDE_SADDLE * float(np.ptp(height))
+    between = [value for value in passes if low < value < high]
+    passed = np.zeros(height.shape, bool)
+    for start, end in zip([low, *(v + gap for v in between)], [*(v - gap for v in between), high]):
+        areas, _ = label((height >= start) & (height <= end))
+        here = set(areas[row, column][(values >= start) & (values <= end)].tolist()) - {0}
+        seam = {pair for pair in zip(areas[:, 0].tolist(), areas[:, -1].tolist()) if all(pair)}
+        while more := {n for pair in seam if here & set(pair) for n in pair} - here:
+            here |= more
+        passed |= np.isin(areas, list(here))
+    triangles, inside = (grid_triangles(values[::STEP, ::2 * STEP]) for values in (ball, np.repeat(
+        passed[..., None], 3, axis=2).astype(float)))
+    return triangles[inside.reshape(len(inside), -1).all(axis=1)]
 
 
 def _seen(mark: dict[str, Any], H: np.ndarray, view: tuple[float, float]) -> dict[str, Any]:
@@ -357,6 +400,7 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
               momentum_sphere(item) if item.physical and subjects.free(item) else cylinder(item, units))
     with canvas.on(ax, size, space=True) as target:
         in_space.facets(target, [(result.surface, style.GREY)], pale_by=0.22)
+        in_space.veil(target, result.swept, style.VIOLET)
         for points, look, front in result.lines:
             behind = BEHIND if look is style.MEANING["level"] else HIDDEN
             in_space.line(target, points, look if front else look | behind, zorder=6 if front else 3)
