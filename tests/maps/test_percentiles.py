@@ -34,7 +34,7 @@ def test_quantiles_of_a_monotone_map_are_the_map_of_the_quantiles():
     inside = dict.fromkeys(exact, 0)
     case = stabilab.load(SPIN_UP.format("0.02, sigma 5 %"))
     for seed in range(10):
-        found = case.percentiles(100, seed, largest=False)
+        found = case.percentiles(200, seed, largest=False, workers=1)
         for q in found.time.quantiles:
             inside[q.percent] += q.least <= exact[q.percent] <= q.greatest
             assert q.high == pytest.approx(exact[q.percent], rel=0.05)
@@ -54,7 +54,7 @@ def test_the_share_that_reaches_a_limit_has_the_exact_probability_within_its_bou
     probability, inside = 1 - norm.cdf(1), 0
     case = stabilab.load(FREE.format("0.09, sigma 0.01"))
     for seed in range(10):
-        found = case.percentiles(300, seed, rate="0.1", largest=False)
+        found = case.percentiles(300, seed, rate="0.1", largest=False, workers=1)
         reached = found.reached["reached"]
         assert reached.count + found.reached["never"].count == reached.number == 300
         inside += reached.low <= probability <= reached.high
