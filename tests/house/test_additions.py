@@ -259,6 +259,7 @@ def test_a_new_effect_with_a_fate_is_one_file_and_one_row(tmp_path):
     assert "brake, not drawn" in told["legend"]
 
 
+@pytest.mark.slow
 def test_a_new_column_of_a_sweep_is_one_row_and_a_new_kind_of_picture_one_file_and_one_row(tmp_path):
     copied(tmp_path)
     added(tmp_path / "stabilab", "show/plot/energy.py", PICTURE, PICTURE_ROW)

@@ -86,7 +86,7 @@ def test_every_command_shows_a_new_caveat_in_every_view(stabilab, probed, usual,
         assert any(one["code"] == "probe" and one["kind"] == "stated" for one in found)
 
 
-@pytest.mark.one_in(5)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize("kind", list(Kind))
 def test_a_caveat_of_every_kind_is_in_every_view(monkeypatch, stabilab, usual, tmp_path, kind):
     """No view chooses by the kind what it leaves out: kinds that some view treats by itself as well."""

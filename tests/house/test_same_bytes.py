@@ -199,6 +199,7 @@ def test_rerun_finds_the_same_bytes_from_another_folder(tables, stabilab, monkey
         list(tables.iterdir())) - 1 and "none differs" in out, out + err
 
 
+@pytest.mark.slow
 def test_rerun_sees_a_file_that_differs_and_keeps_the_new_ones_where_asked(tables, stabilab):
     data = json.loads((tables / "manifest.json").read_text())
     data["outputs"][1]["sha256"] = "0" * 64

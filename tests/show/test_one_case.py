@@ -208,6 +208,7 @@ def test_a_column_of_a_sweep_that_says_nothing_is_left_out(tmp_path):
     assert all(len(row["told"]) == 3 and all(row["told"]) for row in page["rows"])
 
 
+@pytest.mark.slow
 def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, case_file, monkeypatch):
     """By hand: the plane x1 + 1 + x3 = 0 is one of every a, x3 dies out on it and x2 grows with the time: |x|
     goes along with it."""
@@ -269,6 +270,7 @@ def test_a_power_of_a_product_is_that_of_all_its_letters():
     assert formulas.inner(Symbol("Mgx") ** 2, products=False) == "<msup><mi>Mgx</mi><mn>2</mn></msup>"
 
 
+@pytest.mark.slow
 def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_farthest_of_its_laws(
     stabilab, tmp_path):
     path = CASES / "charged-sweep.toml"
