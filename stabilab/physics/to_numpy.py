@@ -99,8 +99,11 @@ def _terms(expression: Symbolic, state: tuple[Symbolic, ...],
     """(powers, number) of each monomial of the state at these values of the parameters; None of what is no
     polynomial in the state."""
     from sympy import Poly, PolynomialError
+    number = expression.xreplace(dict(resolved))
+    if not number.is_polynomial(*state):  # by its form: Poly would first expand it, for minutes
+        return None
     try:
-        return Poly(expression.xreplace(dict(resolved)), *state).terms()
+        return Poly(number, *state).terms()
     except PolynomialError:
         return None
 

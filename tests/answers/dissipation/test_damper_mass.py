@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import sympy
 from scipy.integrate import solve_ivp
 
 import stabilab
@@ -68,6 +69,23 @@ def test_runs_as_newtons_equations_of_two_bodies_do(place, line, wheel):
     assert laws["energy"] == pytest.approx(energy, rel=1e-10) and (np.diff(energy) < 0).all()
     # the law leaves out what is constant, |wheel|^2
     assert 2 * laws["momentum"] + np.dot(wheel, wheel) == pytest.approx(size**2, rel=1e-10) and np.ptp(size) < 1e-10
+
+
+def test_the_jacobian_of_a_mass_on_an_oblique_line_is_that_of_newtons_equations(monkeypatch):
+    """By central differences of Newton's rates. No quotient is expanded, which takes minutes."""
+    poly = sympy.Poly
+
+    def spied(expression, *state):
+        assert expression.is_polynomial(*state)
+        return poly(expression, *state)
+    monkeypatch.setattr(sympy, "Poly", spied)
+    place, line = (-0.39, 0.27, 0.13), (-0.54, 0.58, 0.36)
+    at = np.array([0.3, -0.2, 1.0, 0.02, 0.1])
+    rate = newtons_rates(D, 0.5, place, line, 1.11, 0.3)[0]
+    steps = np.eye(5) * 1e-5
+    slopes = np.transpose([(np.subtract(rate(0, at + h), rate(0, at - h))) / 2e-5 for h in steps])
+    scene = Scene(Body(D.tolist(), M), DamperMass(0.5, place, line, 1.11, 0.3, M))
+    assert to_numpy(scene).jacobian(at) == pytest.approx(slopes, abs=1e-8)  # the error of differences: h^2 and 1e-16/h
 
 
 @pytest.mark.slow
