@@ -121,21 +121,31 @@ class DamperMass(Effect):
         return block[1], (pull - k * block[0] - c * block[1]) / mu
 
     def share(self, D: Exact3) -> Fraction:
-        """Of the moments of the whole, at most the part that the mass has of the least: mu |r|^2/min D; the
-        rest of the body has moments about its own mass centre of at least (1 - share) D."""
+        """Of the moments of the whole, at most the part that the mass has: the largest eigenvalue of D^-1 G
+        is at most that of G over min D, mu |r|^2/min D, and the sum of all. The rest of the body has moments
+        about its own mass centre of at least (1 - share) D."""
+        own = self._own()
+        return min(self.exact[0] * dot(self.exact[3:6], self.exact[3:6]) / min(D),
+                   sum((own[i][i] / moment for i, moment in enumerate(D)), Fraction(0)))
+
+    def _own(self) -> tuple[tuple[Fraction, ...], ...]:
+        """G = mu (|r|^2 1 - r r^T), what the relaxed mass has of the moments of the whole."""
         mu, r = self.exact[0], self.exact[3:6]
-        return mu * dot(r, r) / min(D)
+        return tuple(tuple(mu * (int(i == j) * dot(r, r) - r[i] * r[j]) for j in range(3)) for i in range(3))
 
     def refused_by(self, body: Body) -> str:
         if body.mass != self.mass_of_body:
             return ("mass_of_body is that of the whole: give Body(.., mass=..) the same, got "
                     f"{body.mass} and {self.mass_of_body:g}")
-        share = self.share(body.exact)
-        if share >= 1:
-            return ("its mass times the square of its distance from the mass centre is "
-                    f"{float(share * min(body.exact)):.6g} kg m^2, and must be smaller than the least moment "
-                    f"of the body, {float(min(body.exact)):.6g}, which holds it: give the moments of the "
-                    "whole, or a smaller mass")
+        own = self._own()
+        a, b, c = (tuple(int(i == j) * body.exact[i] - v for j, v in enumerate(row))
+                   for i, row in enumerate(own))
+        if not (a[0] > 0 and a[0] * b[1] > a[1] ** 2 and dot(a, cross(b, c)) > 0):
+            part, whole = (", ".join(f"{float(v):.6g}" for v in row)
+                           for row in ([own[i][i] for i in range(3)], body.exact))
+            return (f"at its distance from the mass centre its mass has the moments ({part}) kg m^2 about the "
+                    f"axes, and the body, which holds it, ({whole}): the rest would have none above zero about "
+                    "some axis: give the moments of the whole, or a smaller mass")
         return ""
 
     def never_turns(self, D: Exact3, wheel: Exact3) -> bool:

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 import stabilab
 from stabilab import Body, DamperMass, Gyrostat, InputError, Scene, load, trajectory
 from stabilab.orbit.result import Fate
+from stabilab.physics.coefficients import content
 from stabilab.physics.to_numpy import to_numpy
 from tests.shared import CASES
 
@@ -118,9 +119,21 @@ def test_file_and_faults():
     assert again.start == case.start and again.scene == case.scene
     with pytest.raises(InputError, match="give body.mass"):
         load(text.replace("mass = 10\n", "", 1))
-    with pytest.raises(InputError, match="smaller than the least moment"):
+    with pytest.raises(InputError, match="the rest would have none above zero"):
         load(text.replace("0.4, 0, 0", "4, 0, 0"))
     assert stabilab.equilibria(case).kind == "undecided"
+
+
+def test_a_mass_along_a_rod_may_have_more_than_its_least_moment():
+    """By hand: it has none about the rod itself, and mu r^2 = 0.5 (0.95) (0.6/0.95)^2 = 0.1895 kg m^2 across it. T >=
+    rest_of_moments |omega|^2/2 is checked by eigenvalues of the rest."""
+    rod = lambda place: Scene(Body(["1", "1", "0.1"], "10"), DamperMass("0.5", place, (0, 0, 1), "2", "0.3", "10"))
+    moments = content(rod(("0", "0", "0.6"))).rest_of_moments
+    assert 0 < moments <= 0.1  # of the rest about its own mass centre: 0.8105, 0.8105, 0.1
+    with pytest.raises(InputError, match="none above zero"):
+        rod(("0.5", "0", "0.6"))  # by hand: mu x^2 = 0.1316 about the rod
+    with pytest.raises(InputError, match="none above zero"):
+        rod(("0", "0", "1.4"))  # mu r^2 = 1.03 across it
 
 
 def _growth(D, arguments, wheel, omega):
