@@ -143,9 +143,9 @@ class DamperMass(Effect):
         if not (a[0] > 0 and a[0] * b[1] > a[1] ** 2 and dot(a, cross(b, c)) > 0):
             part, whole = (", ".join(f"{float(v):.6g}" for v in row)
                            for row in ([own[i][i] for i in range(3)], body.exact))
-            return (f"at its distance from the mass centre its mass has the moments ({part}) kg m^2 about the "
-                    f"axes, and the body, which holds it, ({whole}): the rest would have none above zero about "
-                    "some axis: give the moments of the whole, or a smaller mass")
+            return (f"at its distance from the mass centre its mass has the moments ({part}) kg m^2 about "
+                    f"the axes, and the body, which holds it, ({whole}): the rest would have none above zero "
+                    "about some axis: give the moments of the whole, or a smaller mass")
         return ""
 
     def never_turns(self, D: Exact3, wheel: Exact3) -> bool:
