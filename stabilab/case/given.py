@@ -14,7 +14,19 @@ from warnings import warn
 from ..errors import InputError
 from ..numbers.exact import exact, floats
 from ..numbers.principal import IDENTITY, PrincipalAxes, oblique
-from ..numbers.units import ANGLE, LENGTH, MOMENTUM, NONE, RATE, TIME, VELOCITY, Dimension, in_si, split
+from ..numbers.units import (
+    ANGLE,
+    LENGTH,
+    MIXED,
+    MOMENTUM,
+    NONE,
+    RATE,
+    TIME,
+    VELOCITY,
+    Dimension,
+    in_si,
+    split,
+)
 from ..numbers.vectors import Exact3
 from ..physics.scene import (
     BLOCKS,
@@ -42,9 +54,11 @@ Starts: TypeAlias = "ArrayLike | Sequence[Mapping[str, Sequence[Amount]]]"  # ma
 Span: TypeAlias = "Amount | Sequence[Amount]"  # (from, to), or the end
 
 FRAMES = ("principal", "file")
-UNITS = {"omega": RATE, "x": NONE, "gamma": NONE, "attitude": ANGLE, "velocity": VELOCITY,
-         "position": LENGTH, "damper": RATE, "wheel": MOMENTUM, "damper_wheel": RATE,
-         "sprung_wheel": NONE, "damper_mass": NONE}  # of the blocks of a state
+# of the blocks of a state; of each number, where these are several
+UNITS: dict[str, Dimension | tuple[Dimension, ...]] = {
+    "omega": RATE, "x": NONE, "gamma": NONE, "attitude": ANGLE, "velocity": VELOCITY,
+    "position": LENGTH, "damper": RATE, "wheel": MOMENTUM, "damper_wheel": RATE,
+    "sprung_wheel": MIXED["motion.sprung_wheel"], "damper_mass": MIXED["motion.damper_mass"]}
 
 
 def as_case(supplied: Given, state: Start | None = None, span: Span | None = None,
@@ -154,7 +168,7 @@ def _row(state: Any) -> Sequence[Any]:
 
 def _numbers(scene: AnyScene, name: str, values: Any) -> tuple[Fraction, ...]:
     """The numbers of one block, exact, in SI."""
-    unit = NONE if scene.variables == "scaled" else UNITS[name]
+    unit: Any = NONE if scene.variables == "scaled" else UNITS[name]
     where = "state" if name == "omega" else f"state: {name}"
     row = _row(values)
     if name == "omega" and len(row) != 3:
@@ -162,7 +176,8 @@ def _numbers(scene: AnyScene, name: str, values: Any) -> tuple[Fraction, ...]:
     size = len(NO_MOTION.get(name, (0.0,) * 3))
     if len(row) != size and (name, len(row)) != ("attitude", 4):
         raise InputError(f"state: {name} has {size} components, got {len(row)}")
-    return tuple(_number(value, unit, where) for value in row)
+    units = unit if isinstance(unit[0], tuple) else (unit,) * len(row)
+    return tuple(_number(value, each, where) for value, each in zip(row, units))
 
 
 def _number(value: Any, unit: Dimension, where: str) -> Fraction:

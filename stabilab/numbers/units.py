@@ -120,6 +120,9 @@ DIMENSIONS: dict[str, Dimension] = {
     "motion.precession_period": TIME, "motion.amplitude": ANGLE, "motion.spin": RATE,
     "motion.nutation": ANGLE, "motion.lean": ANGLE,
 }
+# of vectors whose numbers are of several dimensions, one for each
+MIXED: dict[str, tuple[Dimension, ...]] = {"motion.sprung_wheel": (ANGLE, RATE),
+                                           "motion.damper_mass": (LENGTH, VELOCITY)}
 
 # compiled where a unit is read
 _NUMBER = r"(?as)\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)"
@@ -232,8 +235,11 @@ def unit_of(text: str) -> Unit:
 
 
 def dimension_of(path: tuple[Any, ...]) -> Dimension:
-    """The dimension of the number at this path (list indices do not count)."""
-    return DIMENSIONS.get(".".join(key for key in path if isinstance(key, str)), NONE)
+    """The dimension of the number at this path (list indices count in `MIXED` alone)."""
+    name = ".".join(key for key in path if isinstance(key, str))
+    if name in MIXED:
+        return MIXED[name][path[-1]] if isinstance(path[-1], int) else NONE
+    return DIMENSIONS.get(name, NONE)
 
 
 def unit_of_key(path: tuple[Any, ...]) -> str:

@@ -117,11 +117,25 @@ def test_file_and_faults():
     assert case.start == (0.1, 0.2, 1.0, 0.05, 0.0)
     again = load(stabilab.case.write.data_of_scene(case.scene, {"omega": case.state, **case.blocks}))
     assert again.start == case.start and again.scene == case.scene
+    stated = load(text.replace("[0.05, 0]", '["5 cm", "12 mm/s"]'))  # each number in its own unit: by hand
+    assert stated.blocks["damper_mass"] == (0.05, 0.012)
+    with pytest.raises(InputError, match=r"number 2: expected velocity \(m/s\), got length"):
+        load(text.replace("[0.05, 0]", '["5 cm", "12 mm"]'))
+    started = stabilab.fate(case, {"omega": case.state, "damper_mass": ["5 cm", "12 mm/s"]})
+    assert started.states[-2:].tolist() == [0.05, 0.012]
     with pytest.raises(InputError, match="give body.mass"):
         load(text.replace("mass = 10\n", "", 1))
     with pytest.raises(InputError, match="the rest would have none above zero"):
         load(text.replace("0.4, 0, 0", "4, 0, 0"))
     assert stabilab.equilibria(case).kind == "undecided"
+
+
+def test_a_wheel_on_a_spring_starts_at_an_angle_in_degrees():
+    """By hand: 90 deg are pi/2, 60 rpm 2 pi rad/s."""
+    case = load({"body": {"inertia": [2, "1.5", "1.2"]}, "effects": {"damper_wheel": {
+        "inertia": "0.05", "coefficient": "0.02", "stiffness": "0.05", "axis": [1, 0, 0]}},
+        "motion": {"angular_velocity": [0, 0, 1], "sprung_wheel": ["90 deg", "60 rpm"]}})
+    assert case.blocks["sprung_wheel"] == pytest.approx((math.pi / 2, 2 * math.pi), rel=1e-15)
 
 
 def test_a_mass_along_a_rod_may_have_more_than_its_least_moment():
