@@ -38,6 +38,9 @@ CRITICAL = Sentence(
 NOT_COUNTED = Sentence(
     "mass-rotations-degenerate", "two rotations meet at this |H|, so that a term of higher order decides "
     "between them")()
+NEUTRAL = Sentence(
+    "mass-minimum-neutral", "a small nutation about some of the minima does not move the mass: these are "
+    "stable, and terms of higher order decide whether they attract")()
 IN_A_PIECE = Sentence(
     "mass-below-passes", "T = {energy} is below {barrier}, the energy of the lowest rotation that does not "
     "attract: what it may reach has one rotation that does; a run comes to a hundredth of what it has above "
@@ -86,11 +89,12 @@ def rotations_with_mass(case: Case, size: Fraction) -> Rotations | None:
     if body is None:
         return None
     rows = described(case.scene, body)  # type: ignore[arg-type]
-    return Rotations(float(size), rows, reason=_why(body), caveats=case.caveats)
+    return Rotations(float(size), rows, reason=_why(body, rows), caveats=case.caveats)
 
 
-def _why(body: BodyWithMass) -> Reason:
-    return CRITICAL if body.counted else CRITICAL.then(NOT_COUNTED)
+def _why(body: BodyWithMass, rows: tuple[SteadyRotation, ...]) -> Reason:
+    neutral = any(item.nature == MINIMUM and item.decay is None for item in rows)
+    return CRITICAL.then(None if body.counted else NOT_COUNTED).then(NEUTRAL if neutral else None)
 
 
 def described(scene: Scene, body: BodyWithMass) -> tuple[SteadyRotation, ...]:
@@ -183,7 +187,8 @@ def of_case(case: Case) -> GyrostatSpin | None:
 def _answered(spinner: MassSpin) -> GyrostatSpin:
     body, energy = spinner.body, float(spinner.energy)
     barrier = body.lowest_pass
-    result = GyrostatSpin(spinner.size, described(spinner.scene, body), reason=_why(body), energy=energy,
+    rows = described(spinner.scene, body)
+    result = GyrostatSpin(spinner.size, rows, reason=_why(body, rows), energy=energy,
                           barrier=barrier if math.isfinite(barrier) else None, reachable=body.minima)
     if (at := _resting(spinner)) is not None:
         if body.rotations[at].nature == MINIMUM:

@@ -89,6 +89,10 @@ def test_they_rest_and_are_stable_by_newtons_equations(seed):
         J = np.array([(np.array(rate(0, at + v)) - rate(0, at - v)) / (2 * step) for v in step * np.eye(5)]).T
         values = sorted(np.linalg.eigvals(J), key=abs)[1:]  # |H| may be another
         growth = max(z.real for z in values)
+        if abs(growth) < 1e-7 * np.abs(values).max():  # a nutation that does not move the mass
+            assert item.decay is None and item.growth is None
+            assert item.with_losses == ("stable" if item.nature == "minimum" else "undecided")
+            continue
         assert (item.with_losses == "stable") == (growth < 0) == (item.nature == "minimum")
         assert (item.decay or -item.growth) == pytest.approx(-1 / growth, rel=1e-3)
 
