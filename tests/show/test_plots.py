@@ -359,6 +359,15 @@ def of_free_body(H, D, wheel=(0, 0, 0)):
     return (((H - np.array(wheel)) ** 2) / (2 * np.array(D))).sum(axis=-1)
 
 
+def test_a_motion_is_followed_once_for_all_pictures_of_its_span(monkeypatch):
+    item, followed, along = subject.subject(load("charged-body")), [], path.along
+    monkeypatch.setattr(path, "along", lambda *of: (followed.append(of), along(*of))[1])
+    with style.drawing():
+        stabilab.plot.time(item)
+    t, omega = path.path(item, *item.seen)
+    assert len(followed) == 1 and not omega.flags.writeable and len(t) == len(omega) == path.FINE
+
+
 @pytest.mark.first(2, 2)
 @pytest.mark.parametrize("scale", [2.0**-18, 2.0**40, 1.0, 2.0**-60])
 def test_equilibria_are_found_at_rates_of_any_size(scale):

@@ -34,12 +34,16 @@ BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as
 
 
 def path(item: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
-    """(times (n,), rates (n, 3)) of the motion from `start` to `end`; fewer where the run stops. InputError
-    where it does not begin."""
-    t, states = along(item, np.linspace(start, end, FINE), np.linspace(start, end, FEWER))
-    if len(t) < 2:
-        raise InputError("plot: the motion cannot be followed: the run stopped at its start")
-    return t, states
+    """(times (n,), rates (n, 3)) of the motion from `start` to `end`, not to be changed: the pictures of an
+    item share them; fewer where the run stops. InputError where it does not begin."""
+    if (start, end) not in item.paths:
+        t, states = along(item, np.linspace(start, end, FINE), np.linspace(start, end, FEWER))
+        if len(t) < 2:
+            raise InputError("plot: the motion cannot be followed: the run stopped at its start")
+        for values in (t, states):
+            values.flags.writeable = False
+        item.paths[start, end] = t, states
+    return item.paths[start, end]
 
 
 def along(item: Subject, times: np.ndarray,

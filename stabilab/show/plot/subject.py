@@ -127,6 +127,11 @@ class Subject:
         return result if self.case is None else headline.judged(self.case, result)
 
     @cached_property
+    def paths(self) -> dict[tuple[float, float], tuple[np.ndarray, np.ndarray]]:
+        """(times, rates) of what its pictures have followed, by (from, to): `path.path` fills it."""
+        return {}
+
+    @cached_property
     def orbit(self) -> CircularOrbit:
         """The attitudes at rest of a satellite on a circular orbit."""
         return circular_orbit(self.orbiting)
