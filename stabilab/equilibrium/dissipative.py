@@ -32,6 +32,7 @@ from math import cos, inf, sin
 from typing import Any
 
 from ..numbers.balls import MANY_BITS, working
+from ..numbers.exact import floats
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.principal import SLACK, principal_minors
 from ..numbers.vectors import CYCLE, Exact3, Float3, Number, cross, cross_matrix, dot
@@ -68,10 +69,16 @@ LOST = Verdict("unstable", Sentence(
 SPHERE = Verdict("stable", Sentence(
     "eddy-sphere",
     "all moments are equal: rotation across the field decays, and the attitude moves no further than it")())
+SLOWED = Verdict("stable", Sentence(
+    "eddy-and-resistance-rest",
+    "T' ≤ -ω . R ω, R = c D + C, positive definite, of what resists: every rate decays exponentially, and "
+    "the attitude moves no further than it")())
+REST_ALONE = Sentence(
+    "eddy-and-resistance", "eddy currents and what resists both take energy at every rotation but rest")()
 EDDY_BESIDE = Sentence(
     "eddy-beside",
-    "undecided: of eddy currents beside wheels, a torque, a medium, a damper, a liquid or another field not "
-    "all equilibria are known")()
+    "undecided: of eddy currents beside wheels without resistance, a torque, a damper inside, a liquid or "
+    "another field not all equilibria are known")()
 ALONG_FIELD = Sentence("rotation-along-field", "rotation about {axis} along the field")
 AGAINST_FIELD = Sentence("rotation-against-field", "rotation about {axis} against the field")
 TURNS_WITH_FIELD = Sentence("turns-with-field", "{component} = {sign}, ω = t γ")
@@ -81,12 +88,18 @@ AT_REST = Sentence("rates-vanish", "ω = 0")()
 
 
 def eddy_equilibria(parts: Content) -> Equilibria:
-    """Rotations about the field and rest, of the body alone; undecided beside anything else."""
-    if (any(parts.M) or any(parts.Lambda) or parts.c or parts.damped or parts.damper_inside or parts.kappa
-            or any(parts.s) or parts.N or parts.E):
+    """Rotations about the field and rest, of the body alone; rest alone where resistance or a linear damper
+    takes energy at every rotation, beside wheels too; undecided beside anything else."""
+    slowed = bool(decay(parts))
+    if (any(parts.M) or any(parts.u) or any(parts.s) or parts.N or parts.E or parts.damper_inside
+            or parts.kappa or not slowed and (any(parts.Lambda) or parts.damped)):
         return Equilibria("undecided", reason=EDDY_BESIDE)
+    if slowed:
+        return Equilibria("curves", curves=(_eddy_rest(parts, SLOWED),),
+                          reason=REST_ALONE.then(ONLY_REST, ", "))
+    rest = SPHERE if len(set(parts.D)) == 1 else LOST
     curves = [_rotations(parts, i, sign) for i in range(3) for sign in (1, -1)]
-    return Equilibria("curves", curves=(*curves, _eddy_rest(parts)),
+    return Equilibria("curves", curves=(*curves, _eddy_rest(parts, rest)),
                       reason=REASON.then(EQUAL if len(set(parts.D)) < 3 else None))
 
 
@@ -104,9 +117,7 @@ def _rotations(parts: Content, i: int, sign: int) -> EquilibriumCurve:
     return EquilibriumCurve(about, at, (CurveSegment.like(samples[0], (-inf, inf)),), (), samples)
 
 
-def _eddy_rest(parts: Content) -> EquilibriumCurve:
-    verdict = SPHERE if len(set(parts.D)) == 1 else LOST
-
+def _eddy_rest(parts: Content, verdict: Verdict) -> EquilibriumCurve:
     def at(t: float) -> tuple[float, ...]:
         return (0.0, 0.0, 0.0, cos(t), sin(t), 0.0)
     sample = EquilibriumPoint(at(0.5), _eddy_spectrum(parts, at(0.5)), "degenerate", verdict.word,
@@ -118,12 +129,15 @@ def _eddy_rest(parts: Content) -> EquilibriumCurve:
 
 def _eddy_spectrum(parts: Content, at: tuple[float, ...]) -> tuple[complex, ...]:
     """Eigenvalues of the linear motion next to an equilibrium omega = s gamma: at omega + u, gamma + v it is
-    D u' = D u x omega + D omega x u + k B^2 ((u - s v) x gamma) x gamma, v' = gamma x (u - s v)."""
+    D u' = D u x omega + (D omega + Lambda) x u - R u + k B^2 ((u - s v) x gamma) x gamma, v' = gamma x (u -
+    s v)."""
     import numpy as np
     D, w, g = np.diag([float(d) for d in parts.D]), np.array(at[:3]), np.array(at[3:])
     turn = lambda v: np.array(cross_matrix(v))
     s, slow = float(w @ g), float(parts.eddy) * (turn(g) @ turn(g))
-    J: Any = np.block([[np.linalg.solve(D, turn(D @ w) - turn(w) @ D + slow), -s * np.linalg.solve(D, slow)],
+    wheels, drag = np.array(floats(parts.Lambda)), np.array([floats(row) for row in parts.drag])
+    J: Any = np.block([[np.linalg.solve(D, turn(D @ w + wheels) - turn(w) @ D - drag + slow),
+                        -s * np.linalg.solve(D, slow)],
                        [turn(g), -s * turn(g)]])
     return ordered(np.linalg.eigvals(J))
 
