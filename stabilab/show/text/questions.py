@@ -117,8 +117,8 @@ def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: 
         holds = limiting.condition(result.caveats, units, short=short)
         departs = limiting.unstable(result.caveats, units)
         declared = " with the force as stated" * varies(result)
-        return f"{departs}; undisturbed it " * bool(departs) + (
-            f"NEVER {reaches} {aim}{declared} ({result.level}){',' * bool(holds)}{holds}")
+        return (f"NEVER {reaches} {aim}{' if undisturbed' * bool(departs)}{declared} ({result.level})"
+                f"{',' * bool(holds)}{holds}{'; ' * bool(departs)}{departs}")
     if math.isnan(high):
         return f"NOT KNOWN when it {reaches} {aim}; not before {units.time(low, side=-1)} ({result.level})"
     if high == 0:
