@@ -212,7 +212,7 @@ def _ball(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, Callable[...
 # --- The same of a body that loses energy inside: H goes over the levels of the energy to a minimum
 ROUTE = style.MEANING["this motion"] | {"linewidth": 1.1}
 MANY_TURNS = 60  # of a component: of more, what they fill is drawn and some of them
-ALL_TURNS = "all its turns"
+ALL_TURNS = "all turns of this motion"
 SWEPT: dict[str, Any] = {"facecolor": style.VIOLET, "alpha": in_space.SHEER[style.VIOLET]}
 # of a rotation -> (words, its look as a point, as a circle)
 NATURES: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
@@ -277,7 +277,7 @@ def losing_sphere(item: Subject) -> SurfaceLines:
     result.marks.append((LIFT * route[:1], style.MARKER["start"]))
     whole = [("this motion", ROUTE)]
     if many:
-        whole = [("turns at its start, half-way in energy and end", ROUTE), (ALL_TURNS, SWEPT)]
+        whole = [("this motion at its start, half-way in energy and end", ROUTE), (ALL_TURNS, SWEPT)]
     result.rows = [*whole, ("start", style.MARKER["start"]),
                    *([("level of a saddle", style.MEANING["separatrix"])] if passes else []),
                    *([] if flat else [("other energies", style.MEANING["level"])]), *shown]
