@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..answers.motion import motion
 from ..answers.motions.rows import extremes, fates, periods
 from ..case.read import load
 from ..cost.accuracy import precision
@@ -170,10 +171,10 @@ def near(case, decade: int) -> tuple[np.ndarray, float]:
     axis = landscape(case.scene).reduction.axis
     state = np.array(case.state, float)
     state[axis] = 0.0
-    height = float(fates(case.scene, state).margins)
+    height = motion(case.scene, state).margin_energy  # by balls: of many states margins have 12 digits
     weight = 1.0 if case.scene.variables == "scaled" else float(case.scene.body.inertia[axis])
     state[axis] = math.sqrt(2 * height * (1 - 10.0**-decade) / weight)
-    return state, float(fates(case.scene, state).margins) / height
+    return state, motion(case.scene, state).margin_energy / height
 
 
 def with_closeness(case, tell=lambda text: None) -> list[Growth]:
