@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from ..answers.dissipation.ending import Ending
     from ..case.read import Case
 
+BY_RUN = " (by a run)"  # behind an end that a run alone shows
 ENDING_HEADS = {"flat spin": "FLAT SPIN", "nutation dies out": "NUTATION DIES OUT", "rest": "COMES TO REST",
          "rotation about the field": "TENDS TO ROTATION ABOUT THE FIELD",
          "steady rotation": "TENDS TO STEADY ROTATION"}
@@ -25,7 +26,7 @@ def words(x: Ending | None, units: Units, short: bool = False) -> tuple[str, str
     speed = f"{',' * bool(speed and about(x, units))}{' ' * bool(speed)}{speed}"
     if x.kind == "steady rotation" and not x.rates and x.axis:
         return "TENDS TO A CIRCLE OF ROTATIONS", f" about {units.axes.short(x.axis)}{speed.lstrip(',')}"
-    resolved = " (by a run)" * (x.level == "run" and x.kind in ("steady rotation", "rest"))
+    resolved = BY_RUN * (x.level == "run" and x.kind in ("steady rotation", "rest"))
     return ENDING_HEADS[x.kind], f"{about(x, units)}{speed}{resolved}"
 
 

@@ -199,7 +199,13 @@ def two_lines(case: Case, motion: Motion, units: Units | None = None) -> tuple[s
 
 def _large(motion: Motion, text: str, tail: Sequence[str]) -> str:
     """The first of two lines: as a sentence, behind what an answer must not lack."""
-    line = limiting.ahead(motion.caveats, "; ".join([text, *tail]), named=False)
+    for clause in tail:  # a rate belongs to the rotation, unless a condition stands between them
+        if not clause.startswith("at ") or "," in text:
+            text += f"; {clause}"
+        else:
+            text = (f"{text.removesuffix(ending.BY_RUN)}{', ' if ' about ' in text else ' '}{clause}"
+                    f"{ending.BY_RUN * text.endswith(ending.BY_RUN)}")
+    line = limiting.ahead(motion.caveats, text, named=False)
     if beyond(motion.validity):
         line = f"{motion.validity.status.lower()}: {line}"
     return line[:1].upper() + line[1:]
@@ -207,8 +213,8 @@ def _large(motion: Motion, text: str, tail: Sequence[str]) -> str:
 
 def _in(clause: str, large: str) -> bool:
     """Whether the first of two lines says a clause of the headline."""
-    clause = clause.removeprefix("reaches ").lower()
-    return clause.replace(", at ", "; at ") in large.lower().replace(", at ", "; at ")
+    return clause.removeprefix("reaches ").lower().replace(", at ", "; at ") in large.lower().replace(
+        ", at ", "; at ")
 
 
 def before(case: Case, answer) -> int:
