@@ -174,7 +174,8 @@ def two_lines(case: Case, motion: Motion, units: Units | None = None) -> tuple[s
     settled = tuple(filter(None, (ending.rate(motion.ending, units), ending.when(motion.ending, units))))
     limit = limiting.reached(motion.caveats, units)
     axis = units.axes.signed(motion.axis, motion.sense) if motion.axis and motion.ending is None else ""
-    abouts = [about, *([f" about {axis}{known_as(motion)}", f" about {axis}"] if axis else []), ""]
+    abouts = [about, *([f" about {axis}{known_as(motion)}", f" about {axis}"] if axis else []),
+              ending.BY_RUN * about.endswith(ending.BY_RUN)]
     limits = [(limit.removeprefix("reaches "),)] if limit else [settled, settled[:1]] if settled else []
     large = next((text for tail in (*limits, ()) for about in abouts for text in [_large(
         motion, f"{head.lower()}{about}{where}", tail)] if len(text) <= FIRST), "")
