@@ -30,8 +30,9 @@ from ...unreduced.spin_up.follow import spin_up
 from ...validation import came
 from ..kinds import kind_of, one
 from ..limit import Limit, asked
+from ..never_reached import NEVER_AT_REST
 from ..passage import Found, largest_rate, run_once
-from ..time_to import NEVER_AT_REST, of_one
+from ..time_to import of_one
 from ..when import limit_of
 from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, own_momentum, pieces
 

@@ -10,7 +10,7 @@ import pytest
 import stabilab
 from stabilab.answers import limit as enclosing
 from stabilab.answers.limit import WORK, asked, enclosed
-from stabilab.answers.time_to import earliest
+from stabilab.answers.never_reached import earliest
 from tests.oracles.first_crossing import first_crossing
 
 from .test_time_to import FAR, random_question
