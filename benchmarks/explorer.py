@@ -22,7 +22,7 @@ WHAT = ("processor time; beside the outcome: equilibria with proofs, separatrix 
 
 
 def measurements(small=False):
-    return [partial(_moved, name, 3 if small else 25) for name in NAMES[:1 if small else None]] + [
+    return [partial(_moved, name, 3 if small else 25) for name in NAMES[::len(NAMES) - 1 if small else 1]] + [
         partial(_followed, name) for name in FOLLOWED if not small]
 
 
@@ -43,12 +43,14 @@ def _moved(name, rounds) -> list[Row]:
     """The torque is dragged; then the pointer rests. Processor time, which other work changes little."""
     session = Session(load(CASES / f"{name}.toml"))
     torque = session.about()["groups"][0]
-    size, tilt, azimuth = (one["value"] for one in torque["controls"])
+    values = [one["value"] for one in torque["controls"]]  # off the axes: components along those of the file
     box = unframed(session.answer({}))[0]["space"]["box"]
     whole, verdict, rest = [], [], []
     for n in range(rounds + 2):
-        moved = {"axis": torque["axis"], "size": repr(size * (1 + 0.003 * n)), "tilt": repr(tilt),
-                 "azimuth": repr(azimuth)}
+        grown = 1 + 0.003 * n
+        moved = ({"axis": torque["axis"], "size": repr(values[0] * grown), "tilt": repr(values[1]),
+                  "azimuth": repr(values[2])} if torque["axis"] else
+                 {"file": [repr(value * grown) for value in values]})
         asked = {"torque": moved, "box": box, "moving": True}
         begun = time.process_time()
         told = unframed(session.answer(asked))[0]

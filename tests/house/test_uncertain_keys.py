@@ -92,6 +92,7 @@ OPTIONS = {
     "atlas": {"level": "0", "refine": "0"},
 }
 QUICK = (("extremes", "json"), ("show", ""), ("orbit", ""), ("orbit", "json"))  # run by default
+DEAR = (("precision", ""), ("precision", "csv"))  # a minute and a half each: its JSON is slow, these are long
 # what a view does with a caveat is the same for every caveat (test_no_view_loses_a_caveat): beside the JSON of a
 # command its other views are for the long tests
 VARIED = {  # of each form, what is varied that stays certain
@@ -194,7 +195,7 @@ def in_parts(rows: list, quick) -> list:
     long tests."""
     for n, row in enumerate(rows):
         for k in range(PARTS):
-            marks = ([pytest.mark.slow, pytest.mark.long] if k != n % PARTS else [] if quick(*row)
+            marks = ([pytest.mark.slow, pytest.mark.long] if k != n % PARTS or row in DEAR else [] if quick(*row)
                      else [pytest.mark.slow])
             yield pytest.param(*row, k, id=" ".join(map(str, (*row, k))), marks=marks)
 

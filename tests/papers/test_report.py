@@ -3,6 +3,7 @@ import base64
 import re
 import shutil
 import subprocess
+from contextlib import contextmanager
 from dataclasses import replace
 from html import unescape as html_text
 from html.parser import HTMLParser
@@ -113,9 +114,9 @@ def several(tmp_path_factory, hostile):
     return _written(tmp_path_factory, "several", cases, workers=2, alike=True), cases
 
 
-@pytest.fixture(scope="module")
-def everything(tmp_path_factory, hostile):
-    """The whole with one figure of one paper, and one equation in the audit."""
+@contextmanager
+def _of_little():
+    """One figure of one paper, one equation in the audit, one page of costs."""
     patch = pytest.MonkeyPatch()
     patch.setattr(figures, "FIGURES", (figures.figure(9),))
     patch.setattr(figures, "NUMBERS", (9,))
@@ -125,9 +126,16 @@ def everything(tmp_path_factory, hostile):
     patch.setattr(report, "audited_papers", lambda: ("constant-torque-gyrostat", "charged-axisymmetric-short"))
     patch.setattr("stabilab.papers.audit.findings_of", lambda name: findings_of(name, "13"))
     try:
-        return _written(tmp_path_factory, "everything", [hostile], papers=True, precision=True, workers=1)
+        yield
     finally:
         patch.undo()
+
+
+@pytest.fixture(scope="module")
+def everything(tmp_path_factory, hostile):
+    """The whole of little."""
+    with _of_little():
+        return _written(tmp_path_factory, "everything", [hostile], papers=True, precision=True, workers=1)
 
 
 def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_not_told():
@@ -347,7 +355,9 @@ def test_the_space_of_the_rates_draws_in_a_browser(tmp_path):
 @pytest.mark.slow
 def test_the_start_page_has_the_two_lines_of_the_page_of_its_case(tmp_path):
     """That of the spacecraft whose thruster is stuck."""
-    index = report.write([CASES / "minor-axis-100.toml", CASES / "cubesat-3u.toml"], tmp_path / "report", papers=True)
+    with _of_little():
+        index = report.write([CASES / "minor-axis-100.toml", CASES / "cubesat-3u.toml"], tmp_path / "report",
+                             papers=True, workers=1)
     (lines,) = re.findall(r'<p class="verdict-line.*?</p>', index.read_text(encoding="utf-8"), re.DOTALL)
     assert '<span class="below">' in lines
     assert lines in (index.parent / "cases/cubesat-3u.html").read_text(encoding="utf-8")
