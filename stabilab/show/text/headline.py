@@ -171,16 +171,19 @@ def two_lines(case: Case, motion: Motion, units: Units | None = None) -> tuple[s
     units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
              else units)
     head, about, where = fate_parts(motion, units, tilt=False, short=True)
-    settled = tuple(filter(None, (ending.rate(motion.ending, units), ending.when(motion.ending, units))))
     limit = limiting.reached(motion.caveats, units)
     axis = units.axes.signed(motion.axis, motion.sense) if motion.axis and motion.ending is None else ""
     abouts = [about, *([f" about {axis}{known_as(motion)}", f" about {axis}"] if axis else []),
               ending.BY_RUN * about.endswith(ending.BY_RUN)]
-    limits = [(limit.removeprefix("reaches "),)] if limit else [settled, settled[:1]] if settled else []
-    large = next((text for tail in (*limits, ()) for about in abouts for text in [_large(
+    forms = [(text, limit.removeprefix("reaches ")) for text in abouts] if limit else []
+    if not limit and (ended := ending.words(motion.ending, units)):  # how fast it turns in the end, and when
+        forms = [(ended[1], ending.when(motion.ending, units)), (ended[1], "")]
+        if about and (rate := ending.rate(motion.ending, units)):  # without an axis that has no room
+            forms.append((f", {rate}{abouts[-1]}", ""))
+    large = next((text for about, tail in (*forms, *((text, "") for text in abouts)) for text in [_large(
         motion, f"{head.lower()}{about}{where}", tail)] if len(text) <= FIRST), "")
     if not large:  # the condition is too long: that there is one must stay
-        large = _large(motion, f"{head.lower()}, on a condition" if where else head.lower(), ())
+        large = _large(motion, f"{head.lower()}, on a condition" if where else head.lower(), "")
     became, *rest = line.split("; ")
     if beyond(motion.validity):  # the warning stands alone before what that law has
         became, *rest = [rest[0].removeprefix("by that law: "), *rest[1:]]
@@ -198,15 +201,9 @@ def two_lines(case: Case, motion: Motion, units: Units | None = None) -> tuple[s
     return large, capital("; ".join(clauses))
 
 
-def _large(motion: Motion, text: str, tail: Sequence[str]) -> str:
+def _large(motion: Motion, text: str, tail: str) -> str:
     """The first of two lines: as a sentence, behind what an answer must not lack."""
-    for clause in tail:  # a rate belongs to the rotation, unless a condition stands between them
-        if not clause.startswith("at ") or "," in text:
-            text += f"; {clause}"
-        else:
-            text = (f"{text.removesuffix(ending.BY_RUN)}{', ' if ' about ' in text else ' '}{clause}"
-                    f"{ending.BY_RUN * text.endswith(ending.BY_RUN)}")
-    line = limiting.ahead(motion.caveats, text, named=False)
+    line = limiting.ahead(motion.caveats, "; ".join(filter(None, (text, tail))), named=False)
     if beyond(motion.validity):
         line = f"{motion.validity.status.lower()}: {line}"
     return line[:1].upper() + line[1:]
@@ -214,8 +211,7 @@ def _large(motion: Motion, text: str, tail: Sequence[str]) -> str:
 
 def _in(clause: str, large: str) -> bool:
     """Whether the first of two lines says a clause of the headline."""
-    return clause.removeprefix("reaches ").lower().replace(", at ", "; at ") in large.lower().replace(
-        ", at ", "; at ")
+    return clause.removeprefix("reaches ").lower() in large.lower()
 
 
 def before(case: Case, answer) -> int:
