@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from ..errors import Caveat, Kind
 from ..physics.scene import ScaledGyrostat, Scene
 from ..reasons import Quantity, Sentence, chained
-from .body import Thruster, far_off
 from .correlations import Correlation
+from .hardware import Thruster, far_off
 from .uncertain import BEYOND, NORMAL, SIGMAS, Uncertain
 
 SIZES = Sentence("tolerance-not-looked-at", "the tolerance of the force of {thrusters} is not looked at "

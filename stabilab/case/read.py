@@ -18,9 +18,10 @@ from ..physics.scene import INSIDE, NO_MOTION, ScaledGyrostat, Scene
 from ..reasons import Reason, Sentence
 from ..validation import came, checked_span
 from .aliases import cure_of_units
-from .body import Limits, Thruster, Wheel, judge_limits, judge_oblique, turned_motion
+from .body import judge_oblique, turned_motion
 from .correlations import correlations_of
 from .far import in_doubles
+from .hardware import Limits, Thruster, Wheel, judge_limits
 from .lines import KeyLines, key_lines
 from .motion import SPANS, STATES, judge_blocks, motion_of, observed_reader, span_of
 from .notices import caveats_of

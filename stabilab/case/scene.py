@@ -14,19 +14,8 @@ from ..physics.effects.base import Effect
 from ..physics.scene import Body, ScaledGyrostat, Scene
 from ..reasons import Reason, Sentence
 from .aliases import cure_of_key
-from .body import (
-    Limits,
-    Thruster,
-    Wheel,
-    added,
-    body_of,
-    centre_of_mass,
-    fitted,
-    limits_of,
-    thrusters_of,
-    turned_effects,
-    wheels_of,
-)
+from .body import added, body_of, centre_of_mass, fitted, turned_effects
+from .hardware import Limits, Thruster, Wheel, limits_of, thrusters_of, wheels_of
 from .motion import StatedMotion
 from .table import Faults, Table, did_you_mean
 

@@ -2,7 +2,7 @@
 import re
 from pathlib import Path
 
-from stabilab.case import body, motion, read, table
+from stabilab.case import body, hardware, motion, read, table
 from stabilab.physics.effects import REGISTRY, effect_class
 
 PAGE = (Path(__file__).parents[2] / "docs/case-file.md").read_text(encoding="utf-8")
@@ -11,7 +11,7 @@ PAGE = (Path(__file__).parents[2] / "docs/case-file.md").read_text(encoding="utf
 def test_every_table_key_and_effect_stands_on_the_page():
     named = set(re.findall(r"`\[*([\w.]+)\]*`", PAGE)) | set(re.findall(r"\w+", " ".join(
         re.findall(r"`\{(.*?)\}`", PAGE))))
-    keys = {*read.TABLES, *body.KEYS, *body.THRUSTER, *body.WHEEL, *motion.STATES, *motion.SPANS, *motion.BLOCKS, *table.OBSERVED,
+    keys = {*read.TABLES, *body.KEYS, *hardware.THRUSTER, *hardware.WHEEL, *motion.STATES, *motion.SPANS, *motion.BLOCKS, *table.OBSERVED,
             *table.KEYS, *(f"effects.{name}" for name in REGISTRY),
             *(key for name in REGISTRY for key in effect_class(name).keys), "rate", "units", "a", "b", "mu"}
     assert keys - named == {"effects"}

@@ -13,7 +13,7 @@ from fractions import Fraction
 import pytest
 
 import stabilab as package
-from stabilab.case.body import THRUSTER
+from stabilab.case.hardware import THRUSTER
 from stabilab.case.read import load
 from stabilab.case.table import UNCERTAIN_KEYS, may_be_uncertain
 from stabilab.case.write import text_of
