@@ -37,7 +37,8 @@ from ..errors import InputError, Refused
 from ..physics.states import numbers_in_a_row
 from ..reasons import Quantity, Reasoned, Sentence
 from .printed.evaluate import printed_formulas
-from .top_lindstedt import LindstedtMotion, fast_top, lindstedt
+from .top_expansion import fast_top
+from .top_lindstedt import LindstedtMotion, lindstedt
 
 if TYPE_CHECKING:
     from ..case.read import Case

@@ -213,7 +213,7 @@ def nodes(path):
 
 def test_only_gates_that_hold_a_lock_set_a_precision():
     """Another place that set it would do so while some thread computes."""
-    gates = {"numbers/balls.py": "flint", "verify/numbers.py": "flint", "theories/top_lindstedt.py": "mpmath"}
+    gates = {"numbers/balls.py": "flint", "verify/numbers.py": "flint", "theories/top_expansion.py": "mpmath"}
     words = ("workprec", "extraprec", "workdps", "extradps")
     found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0]
              for path in sources(*words)

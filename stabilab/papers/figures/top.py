@@ -9,7 +9,7 @@ import numpy as np
 
 from ...theories.euler_angles import euler_angles
 from ...theories.top import printed
-from ...theories.top_lindstedt import fast_top
+from ...theories.top_expansion import fast_top
 from .. import families
 from ..families import compared, sweep
 from . import panels
