@@ -52,8 +52,10 @@ def installed() -> bool:
 class Kernel:
     """Straight-line functions of a module, as they are written or compiled.
 
-    entry: the function that others call; inlined, variant, instead, options: as of `compiled`; seconds: what
-    compiling all costs once per computer. spent: s of plain work since the process began.
+    entry: the function that others call; inlined, variant: as of `compiled`; instead: what stands for names
+    of the module, compiled or not; options: others of `compiled`, and what stands for names in compiled code
+    alone; seconds: what compiling all costs once per computer. spent: s of plain work since the process
+    began.
     """
 
     module: ModuleType

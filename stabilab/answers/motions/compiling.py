@@ -66,7 +66,7 @@ TASKS: tuple[Callable[[], None], ...] = rows, spin_ups, enclosures
 def kernels() -> tuple[Kernel, ...]:
     """All that is compiled."""
     return (*KERNELS.values(), BARRIERS, MARGINS, certificate.DECIDE, certificate.ADVANCE,
-            certificate.SIDE_BY_SIDE, enclosure.ADVANCE)
+            enclosure.ADVANCE)
 
 
 def compile_all() -> str:

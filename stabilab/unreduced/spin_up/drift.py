@@ -34,13 +34,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from math import factorial, prod
+from math import factorial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import steps as kernel
-from .certificate import ADVANCE, SIDE_BY_SIDE
+from .certificate import ADVANCE
 
 if TYPE_CHECKING:
     from ...physics.scene import AnyScene
@@ -51,20 +51,12 @@ REVOLUTION = 40  # steps that a return takes, about
 NO_GROWTH = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
 
 
-def work(lanes: int) -> kernel.Work:
-    """Arrays for runs in so many lanes, each from the start of a line of the processor's memory on."""
-    def empty(*shape: int):
-        size = prod(shape)
-        memory = np.zeros(size + 8)
-        start = -memory.ctypes.data // 8 % 8
-        return memory[start:start + size].reshape(shape)
-
-    logs, whole, scale = (empty(count * lanes) for count in (7, 7, 1))
-    return kernel.Work(empty(kernel.ZEROS + kernel.ORDER + 1, 5 * lanes),
-                       empty(kernel.ZEROS + kernel.SIDE + 1, 5 * lanes),
-                       *(empty(4, 3 * lanes) for _ in range(2)), *(empty(3 * lanes) for _ in range(2)),
-                       logs, logs.view(np.int64), whole, whole.view(np.int64), scale, scale.view(np.int64),
-                       *(empty(lanes) for _ in range(7)), *np.zeros((2, lanes), np.int64))
+def work(lanes: int) -> tuple[np.ndarray, np.ndarray]:
+    """What `steps.run` works in, for so many lanes; from the start of a line of the processor's memory on."""
+    size = kernel.EQUATIONS * lanes + 12
+    memory = np.zeros(size + 8)
+    start = -memory.ctypes.data // 8 % 8
+    return memory[start:start + size], np.zeros(lanes, np.int64)
 
 
 class Runs:
@@ -81,7 +73,7 @@ class Runs:
         self.states, self.times, self.fast = np.array(states, float), np.zeros(len(states)), fast
         self.twins = Twins(len(states), self.rates)
         self.steps_done, self.counted = 0, 0  # of a row that never leapt; of all
-        self._work: dict[tuple[int, bool], kernel.Work] = {}
+        self._work: dict[bool, tuple] = {}
         # computed, and passed, of each row
         self.steps, self.rounded = np.zeros(len(states), int), np.zeros(len(states))
         self.met = np.repeat([[0.0], [np.inf]], len(states), axis=1)  # sizes since the last look
@@ -91,15 +83,12 @@ class Runs:
             ADVANCE.functions(self.fast)[name](*arguments)
 
     def _run(self, states: np.ndarray, *arguments):
-        """`steps.run`, in as many lanes as pay."""
-        lanes = kernel.SIDE_BY_SIDE if self.fast and len(states) >= kernel.FROM else 1
-        if (lanes, self.fast) not in self._work:
-            made = work(lanes)  # loops as they are written read plain numbers out of memory twice as fast
-            self._work[lanes, self.fast] = made if self.fast else kernel.Work(
-                *map(memoryview, made))  # type: ignore[arg-type]  # read and written alike
-        with np.errstate(all="ignore"):
-            (ADVANCE if lanes == 1 else SIDE_BY_SIDE).functions(self.fast)["run"](
-                self.coefficients, states, *arguments, *self._work[lanes, self.fast])
+        """`steps.run`."""
+        if self.fast not in self._work:
+            made = work(kernel.SIDE_BY_SIDE if self.fast else 1)
+            # plain Python reads plain numbers out of memory twice as fast
+            self._work[self.fast] = made if self.fast else tuple(map(memoryview, made))
+        self._call("run", self.coefficients, states, *arguments, *self._work[self.fast])
 
     def advance(self, rows: np.ndarray, steps: int, t_max: float, pause: float = 0.0,
                 budget: int = 2**62):
@@ -112,7 +101,7 @@ class Runs:
         (ends, changes), (spans, reached), met = np.empty((2, m, 3)), np.empty((2, m)), np.empty((2, m))
         self._call("begin", self.coefficients, rows, t_max, pause, self.states, self.times, twins.ahead, ends,
                    changes, spans, *np.empty((2, 3)))
-        self._run(ends, changes, spans, counts, True, reached, met)
+        self._run(ends, changes, spans, counts, reached, met)
         self._call("end", self.coefficients, rows, counts, t_max, pause, STEP_ERROR, ends, changes, spans,
                    reached, met, self.states, self.times, twins.growth, twins.most, twins.ahead, twins.blur,
                    self.met, self.steps, self.rounded, *np.empty((3, 3)))
@@ -122,7 +111,7 @@ class Runs:
         most steps."""
         out, times = np.array(states, order="C"), np.empty_like(spans)
         self.counted += min(most, REVOLUTION) * len(states)
-        self._run(out, out, spans, np.full(len(spans), most), False, times, np.empty((2, len(spans))))
+        self._run(out, np.zeros_like(out), spans, np.full(len(spans), most), times, np.empty((2, len(spans))))
         return out, times
 
     def measure(self, rows, out):

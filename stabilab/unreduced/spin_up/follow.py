@@ -40,7 +40,7 @@ NATURAL_TIMES, BUDGET = 1e9, 600_000
 # steps that show the pace of a motion, where it is followed to a time that somebody names
 SETTLED = 1_000_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
-STEP = 3e-4  # s of a processor: a step of one motion in plain Python, with its part in the tests
+STEP = 1e-4  # s of a processor: a step of one motion in plain Python, with its part in the tests
 LEVELS = ("undecided", "certified", "exact", "proved")
 # steps between tests: a share of those before (early, later), at least and at most so many
 FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000

@@ -1,16 +1,15 @@
-"""Taylor steps of motions side by side, and of a small change of each, in straight loops that numba compiles.
+"""Taylor steps of motions side by side, and of a small change of each, that numba compiles.
 
-w_i' = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic). The motions go in LANES: one where the loops
-run as they are written, several where they are compiled: a processor then works on the lanes of a row
-together. A lane whose motion is at its end takes the next one. No lane reads another, and all do the same
-operations in the same order: the bits of a motion depend neither on its neighbours nor on how many lanes
-there are.
+w_i' = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic). The motions go in LANES: one where the text
+runs as it is written, eight where it is compiled: what a step does to a lane, from its state to its next one,
+is a straight line of operations, so that a processor does each of them to all lanes at once. A lane whose
+motion is at its end takes the next one. No lane reads another, and all do the same operations in the same
+order: the bits of a motion depend neither on its neighbours nor on how many lanes there are.
 
-The coefficient of s^n of w_i stands in row ZEROS + n of a, at i LANES + lane; s is the time over `scale`, a
-power of two near the fastest rate, so that no coefficient overflows. A row goes on with w_1 and w_2 once
-more, so that w_(i+1) and w_(i+2) stand LANES and 2 LANES farther on for every i. The rows before hold zeros:
-products of series are summed BLOCK terms at a time, and those that the last block has too many are zero (what
-stands above degree n is finite, from the step before).
+The line has a name for every coefficient (`x1_7`: of s^7 of w_2; `v1_7` of its change), for a coefficient in
+a name stays in a register, and an entry of an array does not. `written_out` writes it, from the same sums
+over degrees that stand in a book. s is the time over `scale`, a power of two near the fastest rate, so that
+no coefficient overflows.
 
 The change v of a motion obeys the equation made linear. It is known to a few per cent, so its series ends at
 degree SIDE: over a step, a seventh of the radius of convergence, that leaves out 3e-7 of it.
@@ -22,15 +21,13 @@ change's own last coefficients allow, nor than a few times what the slopes of th
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 
 ORDER, SIDE = 20, 8
-BLOCK, ZEROS = 4, 3  # both orders are multiples of BLOCK; ZEROS is one less
 LANES = 1
-# of compiled loops, from so many motions on: lanes that nobody fills take as long as others
-SIDE_BY_SIDE, FROM = 32, 6
+SIDE_BY_SIDE = 8  # of compiled code: doubles of the widest vectors there are
 # base 2: what the last coefficients may add to a state, relative to it or to a natural unit: a sixteenth of a
 # unit of rounding
 TAIL = -56.0
@@ -42,282 +39,149 @@ START_EXPONENT = -5.0
 STEEP = 3.0
 STILL = 2.0**-8  # rates per size (or per natural unit) below which no delay is told from a change
 LOST = 2.0**-30  # what lies across a motion is taken to be no less, relative to the change
-# bits of a double's exponent and fraction, and of 1.0 and 2^52, to which a whole number is added in last bits
-EXPONENT, FRACTION = 0x7FF0000000000000, 0x000FFFFFFFFFFFFF
-ONE, WHOLE, BIAS = 0x3FF0000000000000, 0x4330000000000000, 2.0**52 + 1023.0
+# bits of a double's exponent and fraction, and of 1.0
+EXPONENT, FRACTION, ONE = 0x7FF0000000000000, 0x000FFFFFFFFFFFFF, 0x3FF0000000000000
+# Rows of the memory of a run, LANES numbers each: state, change, what is left of the span and what has
+# passed, the sign of both, the greatest, the least and the last |omega|^2, the steps due. Behind them stand
+# the coefficients of the equations, twelve numbers for all lanes.
+STATE, CHANGE, LEFT, PASSED, SIGN, LARGEST, SMALLEST, NOW, DUE, EQUATIONS = 0, 3, 6, 7, 8, 9, 10, 11, 12, 13
 
 
-class Work(NamedTuple):
-    """Arrays of a run, zeros at first: coefficients a and v of the motions and of their changes (ZEROS +
-    degree + 1, 5 LANES), those of the equations, spread over the lanes and in the time of each, c (4, 3
-    LANES), a sum and the step ahead (3 LANES,), numbers and their exponents (7 LANES,), as bits too; of
-    each lane the scale, as bits too, the step, what is left of its span and what has passed, the sign of
-    both, the greatest, the least and the last |omega|^2, the row whose motion it holds (-1: none) and the
-    steps due to it."""
-
-    a: np.ndarray
-    v: np.ndarray
-    spread: np.ndarray
-    c: np.ndarray
-    total: np.ndarray
-    ahead: np.ndarray
-    logs: np.ndarray
-    log_bits: np.ndarray
-    whole: np.ndarray
-    whole_bits: np.ndarray
-    scale: np.ndarray
-    scale_bits: np.ndarray
-    step: np.ndarray
-    left: np.ndarray
-    passed: np.ndarray
-    sign: np.ndarray
-    most: np.ndarray
-    least: np.ndarray
-    now: np.ndarray
-    held: np.ndarray
-    due: np.ndarray
+def power_of_two(size: float):
+    """The greatest power of two that is no greater than a positive number."""
+    return float(np.int64(np.float64(size).view(np.int64) & EXPONENT).view(np.float64))
 
 
-def complete(table: np.ndarray, row: int):
-    """The first two rates of a row once more, behind the third."""
-    for j in range(2 * LANES):
-        table[row, 3 * LANES + j] = table[row, j]
+def logarithm(size: float):
+    """Of a positive number to the base 2: exact at powers of 2, linear between them, so at most 0.09 below;
+    1024 of infinity."""
+    bits = np.float64(size).view(np.int64)
+    return float(np.int64(bits & FRACTION | ONE).view(np.float64)) + (float(bits >> 52) - 1024.0)
 
 
-def series(c: np.ndarray, a: np.ndarray, total: np.ndarray):
-    """The coefficients of a from those of degree 0. c (4, 3 LANES): kappa, rho, sigma, m, times the scale."""
+def two_to(exponent: float):
+    """2^y for |y| < 1022, within 0.3 per cent; exact for whole y."""
+    whole = math.floor(exponent)
+    part = exponent - whole
+    power = float(np.int64((int(whole) + 1023) << 52).view(np.float64))
+    return (1.0 + part * (0.6565 + 0.3435 * part)) * power
+
+
+def written_out() -> str:
+    """The text of `step_ahead`: see above."""
+    cycle = (0, 1, 2), (1, 2, 0), (2, 0, 1)
+    lines: list[str] = []
+    write = lines.append
+    for n, name in enumerate("krsm"):
+        lines += [f"{name}{i} = memory[EQUATIONS * LANES + {3 * n + i}]" for i in range(3)]
+    write("for lane in range(LANES):")
+    for i in range(3):
+        lines += [f" x{i}_0 = memory[{i} * LANES + lane]", f" v{i}_0 = memory[(CHANGE + {i}) * LANES + lane]"]
+    write(" fastest = max(abs(x0_0), abs(x1_0), abs(x2_0), 1.0)")
+    write(" scale = power_of_two(fastest if fastest < 1e300 else 1e300)")
+    write(" unit = 1.0 / scale")
+    # in the time of the lane: kappa, rho, sigma and m are K, R, S and M
+    lines += [f" {name.upper()}{i} = {name}{i} * unit" for name in "krsm" for i in range(3)]
     for n in range(ORDER):
-        for j in range(3 * LANES):
-            total[j] = 0.0
-        for m in range(0, n + 1, BLOCK):
-            up, down = ZEROS + m, ZEROS + n - m
-            for j in range(3 * LANES):
-                y, z = j + LANES, j + 2 * LANES
-                total[j] = (total[j] + a[up, y] * a[down, z] + a[up + 1, y] * a[down - 1, z]
-                            + a[up + 2, y] * a[down - 2, z] + a[up + 3, y] * a[down - 3, z])
-        row, over, first = ZEROS + n, 1.0 / (n + 1.0), 1.0 if n == 0 else 0.0
-        for j in range(3 * LANES):
-            a[row + 1, j] = (c[0, j] * total[j] + c[1, j] * a[row, j + 2 * LANES]
-                             + c[2, j] * a[row, j + LANES] + first * c[3, j]) * over
-        complete(a, row + 1)
-
-
-def series_beside(c: np.ndarray, a: np.ndarray, v: np.ndarray, total: np.ndarray):
-    """The coefficients of a change v beside those of the motion a."""
+        constant = "" if n else " + M{i}"
+        for i, y, z in cycle:
+            products = " + ".join(f"x{y}_{m}*x{z}_{n - m}" for m in range(n + 1))
+            write(f" x{i}_{n + 1} = (K{i}*({products}) + R{i}*x{z}_{n} + S{i}*x{y}_{n}{constant.format(i=i)})"
+                  f" * {1 / (n + 1)!r}")
     for n in range(SIDE):
-        for j in range(3 * LANES):
-            total[j] = 0.0
-        for m in range(0, n + 1, BLOCK):
-            up, down = ZEROS + m, ZEROS + n - m
-            for j in range(3 * LANES):
-                y, z = j + LANES, j + 2 * LANES
-                total[j] = (total[j] + (a[up, y] * v[down, z] + v[down, y] * a[up, z])
-                            + (a[up + 1, y] * v[down - 1, z] + v[down - 1, y] * a[up + 1, z])
-                            + (a[up + 2, y] * v[down - 2, z] + v[down - 2, y] * a[up + 2, z])
-                            + (a[up + 3, y] * v[down - 3, z] + v[down - 3, y] * a[up + 3, z]))
-        row, over = ZEROS + n, 1.0 / (n + 1.0)
-        for j in range(3 * LANES):
-            v[row + 1, j] = (c[0, j] * total[j] + c[1, j] * v[row, j + 2 * LANES]
-                             + c[2, j] * v[row, j + LANES]) * over
-        complete(v, row + 1)
+        for i, y, z in cycle:
+            products = " + ".join(f"(x{y}_{m}*v{z}_{n - m} + v{y}_{n - m}*x{z}_{m})" for m in range(n + 1))
+            write(f" v{i}_{n + 1} = (K{i}*({products}) + R{i}*v{z}_{n} + S{i}*v{y}_{n}) * {1 / (n + 1)!r}")
+    # the greatest sum of sizes in a row of the rates' derivative
+    slopes = (f"abs(K{i}*x{z}_0 + S{i}) + abs(K{i}*x{y}_0 + R{i})" for i, y, z in cycle)
+    write(f" step = min(STEEP - logarithm(max({', '.join(slopes)}, 1e-290)), 100.0)")
+    for x, order, smallest, tail in ("x", ORDER, 1.0, "TAIL"), ("v", SIDE, 1e-200, "START_EXPONENT"):
+        # each of the last two coefficients adds at most its part to the state, or to what stands for it
+        size, last, before = (f"logarithm(max(abs({x}0_{n}), abs({x}1_{n}), abs({x}2_{n}), {bound}))"
+                              for n, bound in ((0, smallest), (order, 1e-290), (order - 1, 1e-290)))
+        write(f" room = {size} + {tail}")
+        write(f" step = min(step, (room - {last}) / {order}, (room - {before}) / {order - 1})")
+    write(" step = min(two_to(step) / scale, LONGEST, memory[LEFT * LANES + lane])")
+    write(" memory[PASSED * LANES + lane] += step")
+    write(" memory[LEFT * LANES + lane] -= step")
+    write(" ahead = step * scale * memory[SIGN * LANES + lane]")
+    for x, order, row in ("v", SIDE, "CHANGE"), ("x", ORDER, "STATE"):
+        for i in range(3):
+            value = f"{x}{i}_{order}"
+            for n in reversed(range(order)):
+                value = f"({value}*ahead + {x}{i}_{n})"
+            lines += [f" {x}{i} = {value}", f" memory[({row} + {i}) * LANES + lane] = {x}{i}"]
+    write(" now, most = x0*x0 + x1*x1 + x2*x2, memory[LARGEST * LANES + lane]")
+    write(" least = memory[SMALLEST * LANES + lane]")
+    write(" memory[NOW * LANES + lane] = now")
+    write(" memory[LARGEST * LANES + lane] = now if now > most else most")
+    write(" memory[SMALLEST * LANES + lane] = now if now < least else least")
+    write(" memory[DUE * LANES + lane] -= 1.0")
+    return "def step_ahead(memory):\n" + "".join(f" {line}\n" for line in lines)
 
 
-def ahead_by(table: np.ndarray, order: int, ahead: np.ndarray, total: np.ndarray):
-    """The values of the polynomials at `ahead`, to the row of degree 0."""
-    for j in range(3 * LANES):
-        total[j] = table[ZEROS + order, j]
-    for row in range(ZEROS + order - BLOCK, ZEROS - 1, -BLOCK):
-        for j in range(3 * LANES):
-            total[j] = (((total[j] * ahead[j] + table[row + 3, j]) * ahead[j] + table[row + 2, j]) * ahead[j]
-                        + table[row + 1, j]) * ahead[j] + table[row, j]
-    for j in range(3 * LANES):
-        table[ZEROS, j] = total[j]
-    complete(table, ZEROS)
+def _made(text: str, name: str) -> Callable[..., None]:
+    """A function of this module from its text. It bears this file's name, by which numba keeps its code."""
+    names = dict(globals())
+    exec(compile(text, __file__, "exec"), names)
+    return names[name]
 
 
-def sizes(table: np.ndarray, smallest: float, logs: np.ndarray, first: int):
-    """The greatest size in the rows of degree 0, the last and the last but one, of each lane, at least
-    `smallest` and 1e-290, to logs from `first` on."""
-    for n in range(3):
-        row, bound = (table.shape[0] - n, 1e-290) if n else (ZEROS, smallest)
-        for k in range(LANES):
-            logs[first + n * LANES + k] = max(abs(table[row, k]), abs(table[row, LANES + k]),
-                                              abs(table[row, 2 * LANES + k]), bound)
+step_ahead = _made(written_out(), "step_ahead")  # one step of every lane
 
 
-def steepest(c: np.ndarray, a: np.ndarray, total: np.ndarray, logs: np.ndarray):
-    """The greatest sum of sizes in a row of the rates' derivative, or 1e-290, to logs from 3 LANES on."""
-    for j in range(3 * LANES):
-        total[j] = (abs(c[0, j] * a[ZEROS, j + 2 * LANES] + c[2, j])
-                    + abs(c[0, j] * a[ZEROS, j + LANES] + c[1, j]))
-    for k in range(LANES):
-        logs[3 * LANES + k] = max(total[k], total[LANES + k], total[2 * LANES + k], 1e-290)
-
-
-def logarithms(logs: np.ndarray, bits: np.ndarray, whole: np.ndarray, whole_bits: np.ndarray):
-    """Of positive numbers (7 LANES,) to the base 2, in their place: exact at powers of 2, linear between
-    them, so at most 0.09 below; 1024 of infinity."""
-    for k in range(7 * LANES):
-        whole_bits[k] = bits[k] >> 52 | WHOLE
-    for k in range(7 * LANES):
-        bits[k] = bits[k] & FRACTION | ONE
-    for k in range(7 * LANES):
-        logs[k] += whole[k] - (BIAS + 1.0)
-
-
-def allowed(step: np.ndarray, logs: np.ndarray, first: int, order: int, fraction: float):
-    """Cut the logarithms of steps to those over which each of the last two coefficients adds to the state, or
-    to what stands for it, at most its share (a logarithm); logs: of `sizes`, from `first` on."""
-    for k in range(LANES):
-        room = logs[first + k] + fraction
-        step[k] = min(step[k], (room - logs[first + LANES + k]) / order,
-                      (room - logs[first + 2 * LANES + k]) / (order - 1))
-
-
-def two_to(step: np.ndarray, whole: np.ndarray, whole_bits: np.ndarray):
-    """2^y for |y| < 1000, within 0.3 per cent, in its place; exact for whole y."""
-    for k in range(LANES):
-        whole[k] = np.floor(step[k])
-    for k in range(LANES):
-        part = step[k] - whole[k]
-        step[k] = 1.0 + part * (0.6565 + 0.3435 * part)
-    for k in range(LANES):
-        whole[k] += BIAS
-    for k in range(LANES):
-        whole_bits[k] = (whole_bits[k] & 0x7FF) << 52
-    for k in range(LANES):
-        step[k] *= whole[k]
-
-
-def in_their_time(a: np.ndarray, spread: np.ndarray, c: np.ndarray, ahead: np.ndarray, scale: np.ndarray,
-                  scale_bits: np.ndarray):
-    """The scale of each lane, and the coefficients of its equations for it; ahead: to work in."""
-    for k in range(LANES):
-        fastest = max(abs(a[ZEROS, k]), abs(a[ZEROS, LANES + k]), abs(a[ZEROS, 2 * LANES + k]), 1.0)
-        scale[k] = fastest if fastest < 1e300 else 1e300
-    for k in range(LANES):
-        scale_bits[k] &= EXPONENT
-    for i in range(3):
-        for k in range(LANES):
-            ahead[i * LANES + k] = 1.0 / scale[k]
-    for n in range(4):
-        for j in range(3 * LANES):
-            c[n, j] = spread[n, j] * ahead[j]
-
-
-def step_ahead(beside: bool, a: np.ndarray, v: np.ndarray, spread: np.ndarray, c: np.ndarray,
-               total: np.ndarray, ahead: np.ndarray, logs: np.ndarray, log_bits: np.ndarray,
-               whole: np.ndarray, whole_bits: np.ndarray, scale: np.ndarray, scale_bits: np.ndarray,
-               step: np.ndarray, left: np.ndarray, passed: np.ndarray, sign: np.ndarray, most: np.ndarray,
-               least: np.ndarray, now: np.ndarray, due: np.ndarray):
-    """One step of every lane; returns how many are at their end."""
-    in_their_time(a, spread, c, ahead, scale, scale_bits)
-    series(c, a, total)
-    sizes(a, 1.0, logs, 0)
-    steepest(c, a, total, logs)
-    if beside:
-        series_beside(c, a, v, total)
-        sizes(v, 1e-200, logs, 4 * LANES)
-    logarithms(logs, log_bits, whole, whole_bits)
-    for k in range(LANES):
-        step[k] = min(STEEP - logs[3 * LANES + k], 100.0)
-    allowed(step, logs, 0, ORDER, TAIL)
-    if beside:
-        allowed(step, logs, 4 * LANES, SIDE, START_EXPONENT)
-    two_to(step, whole, whole_bits)
-    for k in range(LANES):
-        step[k] = min(step[k] / scale[k], LONGEST, left[k])
-    for k in range(LANES):
-        passed[k] += step[k]
-    for k in range(LANES):
-        left[k] -= step[k]
-    for i in range(3):
-        for k in range(LANES):
-            ahead[i * LANES + k] = step[k] * scale[k] * sign[k]
-    if beside:
-        ahead_by(v, SIDE, ahead, total)
-    ahead_by(a, ORDER, ahead, total)
-    squares(a, now)
-    for k in range(LANES):
-        most[k] = now[k] if now[k] > most[k] else most[k]
-    for k in range(LANES):
-        least[k] = now[k] if now[k] < least[k] else least[k]
-    for k in range(LANES):
-        due[k] -= 1
-    ended = 0
-    for k in range(LANES):
-        ended += 0 if left[k] > 0.0 and now[k] < math.inf and due[k] > 0 else 1
-    return ended
-
-
-def squares(a: np.ndarray, now: np.ndarray):
-    """|omega|^2 of each lane."""
-    for k in range(LANES):
-        x, y, z = a[ZEROS, k], a[ZEROS, LANES + k], a[ZEROS, 2 * LANES + k]
-        now[k] = x * x + y * y + z * z
-
-
-def load(lane: int, row: int, states: np.ndarray, table: np.ndarray):
-    """A row of states (n, 3) into a lane, at degree 0."""
-    for i in range(5):
-        table[ZEROS, i * LANES + lane] = states[row, i % 3]
-
-
-def unload(lane: int, row: int, states: np.ndarray, table: np.ndarray):
-    """A lane at degree 0 to a row of states (n, 3). Zeros take the place of coefficients that are beyond
-    doubles, so that the lane's next motion meets none of them."""
-    size = 0.0
-    for i in range(3):
-        states[row, i] = table[ZEROS, i * LANES + lane]
-        size += abs(states[row, i])
-    if not size < math.inf:
-        for n in range(table.shape[0]):
-            for i in range(5):
-                table[n, i * LANES + lane] = 0.0
+def at_end(memory: np.ndarray, lane: int):
+    """Whether a lane's motion is at the end of its span, of its steps, or beyond doubles."""
+    return not (memory[LEFT * LANES + lane] > 0.0 and memory[NOW * LANES + lane] < math.inf
+                and memory[DUE * LANES + lane] > 0.0)
 
 
 def run(coefficients: np.ndarray, states: np.ndarray, changes: np.ndarray, spans: np.ndarray,
-        steps: np.ndarray, beside: bool, reached: np.ndarray, met: np.ndarray, a: np.ndarray, v: np.ndarray,
-        spread: np.ndarray, c: np.ndarray, total: np.ndarray, ahead: np.ndarray, logs: np.ndarray,
-        log_bits: np.ndarray, whole: np.ndarray, whole_bits: np.ndarray, scale: np.ndarray,
-        scale_bits: np.ndarray, step: np.ndarray, left: np.ndarray, passed: np.ndarray, sign: np.ndarray,
-        most: np.ndarray, least: np.ndarray, now: np.ndarray, held: np.ndarray, due: np.ndarray):
+        steps: np.ndarray, reached: np.ndarray, met: np.ndarray, memory: np.ndarray, held: np.ndarray):
     """Up to so many steps (n,), over spans (n,) of time (back where negative), of motions from states (n, 3)
-    and, if `beside`, of changes (n, 3) of them, all in their place; the times that have passed to reached
-    (n,), the greatest and the least |omega|^2 that was met to met (2, n). a and what follows: `Work`."""
+    and of changes (n, 3) of them, all in their place; the times that have passed to reached (n,), the
+    greatest and the least |omega|^2 that was met to met (2, n). memory: its rows, see above; held (LANES,):
+    the row whose motion a lane has (-1: none), both to work in."""
+    for n in range(4):
+        for i in range(3):
+            memory[EQUATIONS * LANES + 3 * n + i] = coefficients[n, i]
     for lane in range(LANES):
-        held[lane], left[lane] = -1, 0.0
-        for n in range(4):
-            for i in range(3):
-                spread[n, i * LANES + lane] = coefficients[n, i]
-    following, busy, ended = 0, 0, LANES
+        held[lane], memory[LEFT * LANES + lane] = -1, 0.0
+    following, busy = 0, 0
     while True:
-        for lane in range(LANES if ended else 0):
-            if left[lane] > 0.0 and now[lane] < math.inf and due[lane] > 0:
+        for lane in range(LANES):
+            if not at_end(memory, lane):
                 continue
             row = held[lane]
             if row >= 0:
-                reached[row] = spans[row] if left[lane] <= 0.0 else sign[lane] * passed[lane]
-                met[0, row], met[1, row] = most[lane], least[lane]
-                unload(lane, row, states, a)
-                if beside:
-                    unload(lane, row, changes, v)
+                reached[row] = (spans[row] if memory[LEFT * LANES + lane] <= 0.0
+                                else memory[SIGN * LANES + lane] * memory[PASSED * LANES + lane])
+                met[0, row] = memory[LARGEST * LANES + lane]
+                met[1, row] = memory[SMALLEST * LANES + lane]
+                for i in range(3):
+                    states[row, i] = memory[(STATE + i) * LANES + lane]
+                    changes[row, i] = memory[(CHANGE + i) * LANES + lane]
                 busy -= 1
+            memory[PASSED * LANES + lane] = memory[NOW * LANES + lane] = 0.0
             if following < spans.size:
                 row, following, busy = following, following + 1, busy + 1
-                load(lane, row, states, a)
-                if beside:
-                    load(lane, row, changes, v)
-                held[lane], due[lane], left[lane] = row, steps[row], abs(spans[row])
-                passed[lane], sign[lane] = 0.0, math.copysign(1.0, spans[row])
-                most[lane] = least[lane] = (states[row, 0] * states[row, 0] + states[row, 1] * states[row, 1]
-                                            + states[row, 2] * states[row, 2])
-            else:  # it stays as it is, and is never at its end
-                held[lane], due[lane], left[lane], sign[lane] = -1, 2**62, math.inf, 0.0
+                held[lane] = row
+                size = 0.0
+                for i in range(3):
+                    memory[(STATE + i) * LANES + lane] = states[row, i]
+                    memory[(CHANGE + i) * LANES + lane] = changes[row, i]
+                    size += states[row, i] * states[row, i]
+                memory[LARGEST * LANES + lane] = memory[SMALLEST * LANES + lane] = size
+                memory[LEFT * LANES + lane], memory[DUE * LANES + lane] = abs(spans[row]), float(steps[row])
+                memory[SIGN * LANES + lane] = math.copysign(1.0, spans[row])
+            else:  # it stands still, and is never at its end
+                held[lane] = -1
+                for row in range(EQUATIONS):
+                    memory[row * LANES + lane] = 0.0
+                memory[LEFT * LANES + lane] = memory[DUE * LANES + lane] = math.inf
         if busy == 0:
             break
-        ended = step_ahead(beside, a, v, spread, c, total, ahead, logs, log_bits, whole, whole_bits, scale,
-                           scale_bits, step, left, passed, sign, most, least, now, due)
+        step_ahead(memory)
 
 
 def rates_at(c: np.ndarray, x: float, y: float, z: float, out: np.ndarray):

@@ -61,7 +61,8 @@ def test_motions_are_decided_alike_with_and_without_numba(wheel):
 def test_a_long_motion_is_compiled_on_its_way(monkeypatch):
     scene, start = random_scene(random.Random(31), 1), (3.0, -1.0, 2.0)
     whole = spin_up(scene, start, budget=400, fast=True)
-    kernel = Kernel(ADVANCE.module, ADVANCE.entry, ADVANCE.seconds, spent=LOAD - 20 * STEP)
+    kernel = Kernel(ADVANCE.module, ADVANCE.entry, ADVANCE.seconds, ADVANCE.inlined, ADVANCE.variant,
+                    options=ADVANCE.options, spent=LOAD - 20 * STEP)
     for module in (follow, drift):
         monkeypatch.setattr(module, "ADVANCE", kernel)
     assert spin_up(scene, start, budget=400).t == whole.t and kernel.ready
