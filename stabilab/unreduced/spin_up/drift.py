@@ -87,7 +87,8 @@ class Runs:
         if self.fast not in self._work:
             made = work(kernel.SIDE_BY_SIDE if self.fast else 1)
             # plain Python reads plain numbers out of memory twice as fast
-            self._work[self.fast] = made if self.fast else tuple(map(memoryview, made))
+            self._work[self.fast] = made if self.fast else tuple(
+                memoryview(array) for array in made)  # type: ignore[arg-type]  # read and written alike
         self._call("run", self.coefficients, states, *arguments, *self._work[self.fast])
 
     def advance(self, rows: np.ndarray, steps: int, t_max: float, pause: float = 0.0,
