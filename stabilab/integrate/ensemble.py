@@ -23,7 +23,7 @@ from ..physics.to_numpy import System, equations_of, to_numpy
 from ..representation import Answer, Compared
 from .guard import FARTHEST
 from .own_units import Units, are_ordinary, in_units, scale_of, units_of
-from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
+from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka, heyoka_available
 from .trajectory import REPORT, integrated
 
 if TYPE_CHECKING:
@@ -144,17 +144,21 @@ class _Rows:
                  times: np.ndarray):
         self.scene, self.rtol, self.starts, self.times = scene, rtol, starts, times
         self.scale, own = scale_of(equations, units), units.times(times)
+        self.own_starts = starts / self.scale
         self.forms = to_numpy(in_units(equations, units)).rhs
         self.out = np.empty((len(starts), times.size, starts.shape[1]))
         self.out[:, times == 0] = starts[:, None]
         self.far = set()  # numbers of motions that turn too often to be followed in step with others
+        self.finished = heyoka().taylor_outcome.time_limit
         self.alone = {}  # number of a motion that its lane did not finish -> (why it stopped or "", steps)
         self.grids = []  # (which of the times, the way there lane by lane)
         for chosen, sense in ((times < 0, -1), (times > 0, 1)):
             route = np.flatnonzero(chosen)[np.argsort(times[chosen] * sense)]
             if route.size:
-                self.grids.append((route,
-                                   np.repeat(np.concatenate([[0.0], own[route]])[:, None], LANES, axis=1)))
+                grid = np.repeat(np.concatenate([[0.0], own[route]])[:, None], LANES, axis=1)
+                # times in a row, as nearly always, are written faster as such
+                rising = (np.diff(route) == 1).all()
+                self.grids.append((slice(route[0], route[-1] + 1) if rising else route, grid))
 
     def __call__(self, groups: np.ndarray) -> int:
         with borrowed_taylor(self.forms, self.rtol, LANES) as ta:
@@ -163,30 +167,32 @@ class _Rows:
     def _row(self, ta, lanes, route, grid) -> int:
         """A row of motions one way. One that overflows, or takes more than REPORT steps, is followed alone,
         and the others start again; a lane that is left over repeats one of them."""
-        for number in self.far.intersection(map(int, lanes)).difference(self.alone):
+        for number in self.far.intersection(lanes.tolist()).difference(self.alone) if self.far else ():
             self._follow_alone(number)
         while (lanes := self._together(lanes)).size:
-            points, steps = self._propagated(ta, lanes, grid)
-            unfinished = {int(number) for lane, number in enumerate(lanes)
-                          if ta.propagate_res[lane][0].name != "time_limit"
-                          or not np.isfinite(points[-1, :, lane]).all()}
-            if not unfinished:
-                self.out[lanes[:, None], route] = points[1:].transpose(2, 0, 1) * self.scale
+            points, outcomes, steps = self._propagated(ta, lanes, grid)
+            good = np.isfinite(points[-1]).all(axis=0) & [outcome == self.finished for outcome in outcomes]
+            if good.all():
+                where = lanes if isinstance(route, slice) else lanes[:, None]
+                self.out[where, route] = points[1:].transpose(2, 0, 1) * self.scale
                 return sum(dict(zip(lanes.tolist(), steps)).values())
-            for number in unfinished:
+            for number in set(lanes[~good].tolist()):
                 self._follow_alone(number)
         return 0
 
     def _together(self, lanes: np.ndarray):
         """A row of those that are not followed alone; none where there is none."""
-        good = [number for number in lanes if int(number) not in self.alone]
+        if not self.alone:
+            return lanes
+        good = [number for number in lanes.tolist() if number not in self.alone]
         return np.resize(good, LANES if good else 0)
 
     def _propagated(self, ta, lanes, grid):
         ta.set_time(0.0)
-        ta.state[:] = (self.starts[lanes] / self.scale).T
+        ta.state[:] = self.own_starts[lanes].T
         points = ta.propagate_grid(grid, max_steps=REPORT)[1]
-        return points, [result[3] for result in ta.propagate_res]
+        outcomes, _, _, steps = zip(*ta.propagate_res)  # made anew for each look
+        return points, outcomes, steps
 
     def _follow_alone(self, number: int):
         why, run = _single(self.scene, self.starts[number], self.times, self.rtol, self.out[number])

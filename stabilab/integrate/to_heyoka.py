@@ -138,7 +138,46 @@ class _Note:
 def heyoka_form(state: Sequence[Expr], symbols: Sequence[Expr], expressions: Sequence[Expr]):
     variables = heyoka().make_vars(*map(str, state))
     swap = dict(zip(state, variables)) | {s: heyoka().par[i] for i, s in enumerate(symbols)}
-    return variables, [_from_sympy(e, swap) for e in expressions]
+    return variables, [_from_sympy(nested(e, state), swap) for e in expressions]
+
+
+def nested(expression: Expr, state: Sequence[Expr]):
+    """A polynomial of the state as x (terms that held x, without it) + y (others that held y) + ...: each
+    product of two series costs as much as ten of a series and a number. As it is where that saves none, and
+    where it is no polynomial."""
+    from sympy import Add
+    terms = [_powers(term, state) for term in Add.make_args(expression)]
+    if None in terms:
+        return expression
+    held = [(coefficient, powers) for coefficient, powers in terms if sum(powers.values()) > 1]
+    rest = [_monomial(*term) for term in terms if term not in held]
+    before = sum(sum(powers.values()) - 1 for _, powers in held)
+    after = 0
+    while held:
+        head = max(state, key=lambda x: sum(x in powers for _, powers in held))
+        inner = [(coefficient, powers | {head: powers[head] - 1}) for coefficient, powers in held
+                 if head in powers]
+        held = [(coefficient, powers) for coefficient, powers in held if head not in powers]
+        after += 1 + sum(max(sum(powers.values()) - 1, 0) for _, powers in inner)
+        rest.append(head * Add(*(_monomial(*term) for term in inner)))
+    return Add(*rest) if after < before else expression
+
+
+def _powers(term: Expr, state: Sequence[Expr]) -> tuple[Expr, dict[Expr, int]] | None:
+    """(coefficient, powers of the state) of a monomial; None of what is none."""
+    coefficient, powers = [], {}
+    for base, exponent in (factor.as_base_exp() for factor in term.as_ordered_factors()):
+        if base in state and exponent.is_Integer and exponent > 0:
+            powers[base] = int(exponent)
+        elif not base.free_symbols.isdisjoint(state):
+            return None
+        else:
+            coefficient.append(base**exponent)
+    return reduce(mul, coefficient, term * 0 + 1), powers
+
+
+def _monomial(coefficient: Expr, powers: Mapping[Expr, int]):
+    return reduce(mul, (x**n for x, n in powers.items()), coefficient)
 
 
 def _from_sympy(expression: Expr, swap: dict[Expr, Any]):
