@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import lru_cache
 from os import PathLike
 from typing import TYPE_CHECKING, Any, TypeAlias
 from warnings import warn
@@ -97,6 +98,12 @@ def scene_of(supplied: Given) -> AnyScene:
 
 def of_scene(scene: AnyScene) -> Case:
     """The case of a scene, without a start."""
+    case = _of_scene(scene)  # of an equal one, whose frame or caveats may be others
+    return case if case.scene is scene else _of_scene.__wrapped__(scene)
+
+
+@lru_cache(maxsize=16)
+def _of_scene(scene: AnyScene) -> Case:
     if isinstance(scene, ScaledGyrostat):
         return Case("scene", "", "", scene, "scaled")
     return Case("scene", "", "", scene, "physical", scene,

@@ -183,7 +183,9 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     if steps is not None:
         steps += [t / units.pace for t in passed or ()]
     route = 1 if times.size < 2 or times[1] > times[0] else -1
-    reached, states = (np.concatenate(parts)[::route] for parts in zip(*result))
+    parts = [part for part in result if part[0].size] or result[:1]
+    reached, states = parts[0] if len(parts) == 1 else map(np.concatenate, zip(*parts))
+    reached, states = reached[::route], states[::route]
     if not units.plain:
         reached, states = reached / units.pace, states * scale
     return Trajectory(reached, states, method, rtol, drift,
@@ -277,7 +279,7 @@ class _Taylor:
         else:
             ta.step()
         end, limit = abs(grid[-1]), PATIENCE * STEP_LIMIT
-        if not np.isfinite(ta.state).all() or end <= limit * abs(ta.time):
+        if end <= limit * abs(ta.time) or not np.isfinite(ta.state).all():
             return None, len(grid)
         begin()
         guard, done = Guard(grid[-1], STEP_LIMIT, REPORT), 0

@@ -579,6 +579,7 @@ def judge_start(scene: AnyScene, state: Mapping[str, Any]) -> None:
 
 def judge_starts(scene: AnyScene, blocks: Sequence[str], rows: np.ndarray | Sequence[np.ndarray]) -> None:
     """The same of many motions from rows of these blocks."""
-    parts = slices(blocks)
-    for row in rows if any(name in INSIDE for name in blocks) else ():
-        judge_start(scene, {name: row[part] for name, part in parts.items()})
+    if any(name in INSIDE for name in blocks):
+        parts = slices(blocks)
+        for row in rows:
+            judge_start(scene, {name: row[part] for name, part in parts.items()})

@@ -107,11 +107,16 @@ def float_array(values: Any, name: str, expected: str = "numbers") -> np.ndarray
         raise InputError(f"{name}: expected {expected}, got {told(values)}") from None
 
 
+FEW = 20
+
+
 def numbers_in_a_row(values: np.ndarray | Sequence[float | Fraction] | Mapping[str, Any] | None,
                      name: str) -> np.ndarray:
     array = float_array(values, name)
     array = array if array.ndim else array.reshape(1)
-    if array.ndim != 1 or not array.size or not np.isfinite(array).all():
+    # of a few numbers NumPy's calls take longer than what they do
+    if array.ndim != 1 or not array.size or not (
+            all(map(math.isfinite, array.tolist())) if array.size < FEW else np.isfinite(array).all()):
         raise InputError(f"{name}: expected finite numbers in one row, got {told(values)}")
     return array
 
@@ -156,6 +161,11 @@ def equations_and_start(
 
 
 def checked_times(times: Any) -> np.ndarray:
+    array = float_array(times, "times")
+    # in a row that rises only the ends may be infinite
+    if array.ndim == 1 and array.size and (array[:-1] < array[1:]).all() and (
+            math.isfinite(array[0]) and math.isfinite(array[-1])):
+        return array
     array = numbers_in_a_row(times, "times")
     item, following = array[:-1], array[1:]
     if not ((item < following).all() or (item > following).all()):
