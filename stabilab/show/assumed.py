@@ -36,21 +36,27 @@ class Assumed:
 
 
 def assumed(case: Any, scene: AnyScene, state: Sequence[float] | None, motion: Motion | None,
-            time_to: Callable[..., Any] | None = None) -> Assumed | None:
-    """The limit assumed of a motion; None where the case states one, and where nothing turns. time_to: that
-    of `answers`, by a run, of a motion that spins up; None: without its time."""
+            time_to: Callable[[float, float | None], Any] | None = None,
+            until: float | None = None) -> Assumed | None:
+    """The limit assumed of a motion; None where the case states one, and where nothing turns. time_to: gives
+    the time to a rate by a run that ends at a time, or where its work is done (None); without it no time is
+    known. until: where the run of a motion ends that is not known to spin up; None: it is not followed."""
     if state is None or case is not None and case.limits is not None:
         return None
     largest, basis = _largest(scene, state, motion)
     rate = TWICE * largest
     if not (rate > 0 and math.isfinite(rate)):
         return None
-    if time_to is None or motion is None or motion.fate is not Fate.SPIN_UP:
-        return Assumed(rate, basis=basis)
+    alone = Assumed(rate, basis=basis)
+    if time_to is None or motion is None or basis == LARGEST:
+        return alone
+    last = None if motion.fate is Fate.SPIN_UP else until
+    if motion.fate is not Fate.SPIN_UP and not (last and last > 0):
+        return alone
     try:
-        found = time_to(scene, state, rate=rate, work=0)
+        found = time_to(rate, last)
     except StabilabError:
-        return Assumed(rate, basis=basis)
+        return alone
     reached = float(found.high)
     return Assumed(rate, reached if math.isfinite(reached) and reached > 0 else None, basis)
 

@@ -83,3 +83,27 @@ def test_a_film_reaches_the_assumed_limit_or_says_that_it_ends_before(span, reac
     assert (film.t[-1] > 95.38) == reaches and (film.later is None) == reaches
     assert ("It ends before what matters: assumed limit, 95.38 s." in text or "1.59 min." in text) == (not reaches)
     assert (film.moment is not None and film.moment[1] == "assumed limit") == reaches
+
+
+def test_a_motion_not_known_to_spin_up_is_followed_to_the_limit_over_its_span():
+    """The time by DOP853 from the equations of Galal et al., charged body, written here: twice the first rate,
+    0.09 pi rad/s, is passed at 1.067 s and the picture marks it."""
+    case = load("cases/charged-body-attitude.toml")
+    a, b, c = case.scene.body.inertia
+    wheel, torque, spin = 1.3, 4.0, 0.09 * math.pi
+    k = 0.003 * 100 * 1.02**2  # N m s: charge, field, square of the arm; its torque is k cos(sigma) omega x e3
+
+    def rates(t, y):
+        w, up = y[:3], y[3:]
+        h = np.array([a * w[0], b * w[1], c * w[2] + wheel])
+        own = np.array([torque + k * up[2] * w[1], -k * up[2] * w[0], 0.0])
+        return [*((np.cross(h, w) + own) / (a, b, c)), *np.cross(up, w)]
+
+    def reached(t, y):
+        return np.linalg.norm(y[:3]) - 2 * spin
+    run = solve_ivp(rates, (0, 5), [0, 0, spin, 0, 0, 1], "DOP853", rtol=1e-10, atol=1e-12, events=reached)
+    item = subject(case)
+    assert item.assumed.time == pytest.approx(run.t_events[0][0], rel=1e-6)
+    names = [text.get_text() for text in plot.time(item).figure.legends[0].get_texts()]
+    plt.close("all")
+    assert "reached after 1.067 s" in names, names

@@ -155,9 +155,10 @@ class Session:
             result = judged(case, result, brief=True)
             if not moving and present("numpy"):
                 result = with_ending(case, result)
-            if not moving and present("numpy") and (case.limits is not None or result.fate is Fate.SPIN_UP):
-                from ...answers.when import time_to, with_first
-                runs = time_to
+            followed = result.fate is not Fate.BOUNDED or not result.for_all_time  # to the limit assumed
+            if not moving and present("numpy") and (case.limits is not None or followed):
+                from ...answers.when import time_of_case, with_first
+                runs = lambda rate, until: time_of_case(case, {"rate": rate}, until, 0)
                 result = result if case.limits is None else with_first(case, result, QUICK)
             text, lines = headline(case, result, units), two_lines(case, result, units)
         settled = time.process_time()
@@ -165,7 +166,8 @@ class Session:
         at_rest = self._at_rest(case, twin, moving)
         form = None if twin is None else twin.quadratic()
         supposed = self._once("assumed", (case.scene, case.state, case.limits, moving), lambda: assumed(
-            case, case.scene, case.state, result, runs))
+            case, case.scene, case.state, result, runs,
+            max(case.span or (0.0, natural(case.scene, case.state)))))
         until, cut = _length(case, result, form, moving, supposed and supposed.time)
         times, path = self._once("line", (case.scene, case.state, until, moving),
                                  lambda: line(case, form, until, moving))

@@ -150,8 +150,11 @@ class Subject:
     @cached_property
     def assumed(self) -> Assumed | None:
         """The limit to which pictures are drawn where the case states none."""
-        return assumed(self.case, self.scene, self.state, None if self.state is None else self.motion,
-                       time_to)
+        if self.state is None:
+            return None
+        until = max(self.span or (0.0, space.natural(self.scene, self.state)))
+        return assumed(self.case, self.scene, self.state, self.motion, lambda rate, end: time_to(
+            self.scene, self.start, rate=rate, t_max=end, work=0), until)
 
     @property
     def assumed_time(self) -> float | None:
