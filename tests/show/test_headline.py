@@ -24,7 +24,7 @@ def followed(start, end):
 
 
 def told(case):
-    return motion(case.scene, case.start, case.span, exact=case.exact_state)
+    return motion(case.scene, case.exact_state or case.start, case.span)
 
 
 @pytest.fixture

@@ -45,7 +45,7 @@ def test_the_verdict_is_that_of_the_case_that_is_saved(case_file):
     saved = case_file(told["toml"], "saved")
     case = load(saved)
     assert case.state[2] == 30 and told["fate"] == "spin-up"
-    assert told["headline"] == headline(case, motion(case.scene, case.state, exact=case.exact_state))
+    assert told["headline"] == headline(case, motion(case.scene, case.exact_state))
 
 
 def test_a_moving_hand_gets_the_same_fate_without_the_search_for_the_separatrix():
