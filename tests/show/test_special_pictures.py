@@ -14,6 +14,10 @@ from stabilab.show.plot import canvas, thumbnail, to_file
 from stabilab.show.plot import subject as subjects
 from stabilab.show.plot.subject import measures, subject
 from stabilab.show.report import one_case
+from stabilab.show.text.badge import badge
+from stabilab.show.text.headline import look
+from stabilab.show.text.stuck import burn_headline, burn_motion
+from stabilab.show.units import SYSTEMS
 from tests.oracles.rigid import euler
 from tests.shared import CASES
 
@@ -181,3 +185,16 @@ def test_their_pages_begin_with_these_pictures(tmp_path):
         assert page["first"].startswith(line) and page["answer"].partition(": ")[2].startswith(line)
         assert page["pictures"][0]["kind"] == kind and (tmp_path / page["thumbnail"]["file"]).exists()
         assert any("orbit" in why or "burn" in why for _, why in page["absent"])
+
+
+def test_a_burn_that_passes_the_limit_of_its_file_says_when_in_every_view():
+    """The time by DOP853, pulse by pulse; of a limit above all rates nothing is said."""
+    times = np.linspace(0.0, 9.7, 97_001)
+    at = times[np.argmax(np.linalg.norm(rates(times), axis=1) >= 15)]
+    answer = stabilab.burn(BURN)
+    (caveat,) = (item for item in answer.caveats if item.kind == "limit")
+    assert caveat.reason.quantities["time"].value == pytest.approx(at, abs=1.5e-4)
+    moved = burn_motion(answer)
+    assert (badge(moved), look(moved)) == ("bounded, reaches its limit", "changes")
+    assert f"reaches 15 deg/s after {at:.4g} s (proved)" in burn_headline(answer, SYSTEMS["deg"])
+    assert badge(burn_motion(stabilab.burn(BURN.replace('"15 deg/s"', '"90 deg/s"')))) == "bounded"

@@ -46,7 +46,7 @@ from ...orbit.result import Motion
 from ...physics.scene import Scene
 from ...reasons import Mass, Quantity, Rate, Reason, Reasoned, Sentence, Time, chained
 from ..attitude import of_motion
-from ..caveats import of_case
+from ..caveats import Known, of_case, of_limit, stated
 from ..limit import Limit, asked, starts_above
 from ..motion import motion
 from ..motions.rows import periods
@@ -54,6 +54,7 @@ from ..passage import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
 from ..simulate import trajectory
 from ..time_to import AT_THE_START, NOT_WITHIN
 from ..turning.result import Attitude
+from ..when import limit_of
 from .chain import (
     RUN_STEPS,
     Chain,
@@ -378,9 +379,9 @@ def burn(burning: Any, stop: Amount | None = None, below: Amount | None = None) 
     switches = tuple(Switch(float(link.begin), link.firing, link.torque, tuple(link.start.tolist()),
                             tuple(map(float, link.levels)))
                      for link in links)
-    closed = _closed(chain, links)
+    closed = what_is_left(chain, links)
     result = Burned(tuple(t.name for t in craft.thrusters), switches, closed,
-                    caveats=(*craft_caveats(craft), *_granted(craft, closed)))
+                    caveats=(*craft_caveats(craft), *_granted(craft, closed), *_limit_reached(chain)))
     return result if limit is None else _with_latest(result, chain, links, limit)
 
 
@@ -397,15 +398,16 @@ def _with_latest(result: Burned, chain: Chain, links: list[Link], limit: Fractio
     """The answer with the latest closing time that keeps |omega| below the limit."""
     craft = chain.case
     out = _of_all_forces(chain, closing_time(chain, links, limit), limit)
-    result = replace(result, caveats=(*craft_caveats(craft), *_granted(craft, result.closed, out)))
+    first = (caveat for caveat in result.caveats if caveat.kind is Kind.LIMIT)
+    result = replace(result, caveats=(*craft_caveats(craft), *_granted(craft, result.closed, out), *first))
     if not 0 < out.low < math.inf:
         return replace(result, latest=out)
     early = Chain(chain.burning, Fraction(out.low))
-    return replace(result, latest=out, closed_latest=_closed(early, list(links_of(early))))
+    return replace(result, latest=out, closed_latest=what_is_left(early, list(links_of(early))))
 
 
-def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
-    """What is left after the last of them."""
+def what_is_left(chain: Chain, links: Sequence[Link]) -> Closed:
+    """What is left after the last link of a burn."""
     body, wheel = chain.base.body, [float(v) for v in chain.base.vector("gyrostat")]
     state = links[-1].end if links else np.array(chain.case.state, float)
     error = WIDER * float(np.abs(state - links[-1].second_end).max()) if links else 0.0
@@ -434,6 +436,16 @@ def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
                   largest, before, result,
                   of_motion(chain.base, rates, result) if chain.quiet else None,
                   tuple(None if v is None else float(v) for v in fired), tuple(used))
+
+
+def _limit_reached(chain: Chain) -> list[Caveat]:
+    """When the motion first reaches the limit of its case, over all switches and after them, where it does.
+    """
+    ask = limit_of(chain.case)
+    if ask is None:
+        return []
+    found = crossing_time(chain, ask, None)
+    return of_limit(Known(scene=chain.base, first=(stated(chain.case.limits), found)))
 
 
 def craft_caveats(craft: Any) -> tuple[Caveat, ...]:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...answers.stuck.burn import burn, closing_time, crossing_time
+from ...answers.stuck.burn import closing_time, crossing_time, what_is_left
 from ...answers.stuck.chain import Chain, links_of
 from ...case.read import Burning, Case
 from ...numbers.units import RATE, TIME, in_si
@@ -40,7 +40,8 @@ class Drawn:
 
     @cached_property
     def _left(self) -> Any:
-        return burn(Burning(self.case), self._asked("stop", TIME)).closed
+        chain = Chain(Burning(self.case), self._asked("stop", TIME))
+        return what_is_left(chain, list(links_of(chain)))
 
     @property
     def fate(self) -> Fate:

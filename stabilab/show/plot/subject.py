@@ -19,7 +19,7 @@ from ...answers.stuck.burn import Burned, burn
 from ...answers.stuck.margins import Row
 from ...answers.time_to import time_to
 from ...case.read import Burning, Case, Orbiting, load_any
-from ...errors import Caveat, InputError, printable
+from ...errors import Caveat, InputError, Kind, printable, without
 from ...maps.percentiles import Percentiles
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
@@ -67,9 +67,10 @@ class Subject:
 
     @cached_property
     def caveats(self) -> tuple[Caveat, ...]:
-        """What limits every answer about it."""
+        """What limits every answer about it; of a burn all but when it reaches the limit of its case, as its
+        pictures count time from the last closing."""
         if self.burned is not None:
-            return self.burned.caveats
+            return without(self.burned.caveats, Kind.LIMIT)
         if self.orbiting is not None:
             return self.orbit.caveats
         return () if self.case is None else of_case(self.case)

@@ -34,7 +34,7 @@ from ..plot.over_time import file_axes
 from ..plot.path import along
 from ..plot.subject import subject
 from ..space import data
-from ..terminal import printed, some
+from ..terminal import capital, printed, some
 from ..text import percentiles
 from ..text.badge import badge
 from ..text.classification import open_fate, uncertain_text, what_changes
@@ -42,7 +42,7 @@ from ..text.headline import exceeded, headline, judged, lines_of, look, two_line
 from ..text.motion import circular_orbit_text, constants, margins, orbit_headline, shown, state
 from ..text.rotations import rotation_rows
 from ..text.scene import fates, key_columns, latex, of_all_combinations, of_motions
-from ..text.stuck import burn_headline, burn_text, burn_undecided
+from ..text.stuck import burn_headline, burn_motion, burn_text, burn_undecided
 from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
 from . import formulas, html
 from .html import picture
@@ -243,12 +243,12 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
     if burning:
         line, text = burn_headline(answer, units), burn_text(case, answer, units)
         fate = "undecided" if burn_undecided(answer) else answer.closed.motion.fate.word
-        looks = "conditional" if burn_undecided(answer) else look(answer.closed.motion)
+        looks = "conditional" if burn_undecided(answer) else look(burn_motion(answer))
     else:
         around = item.orbit
         line, text = orbit_headline(around.equilibria), circular_orbit_text(case, around, units)
         fate = looks = ""
-    marked = fate and (fate if fate == "undecided" else badge(answer.closed.motion))
+    marked = fate and (fate if fate == "undecided" else badge(burn_motion(answer)))
     every = deep or not burning
     if deep and burning and case.uncertain:
         item = replace(item, draws=_tried(absent, "Percentiles",
@@ -264,12 +264,13 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         if kind != "histogram" or case.uncertain:  # a case without such numbers lacks nothing
             missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
     absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
-    caveats = limiting.beside(item.caveats, units, line)
+    caveats, (first, _, small) = limiting.beside(item.caveats, units, line), line.partition("; ")
     draws = "" if item.draws is None else percentiles.text(item.draws, units)
     return dict.fromkeys(("law", "exceeded", "over", "uncertain", "sensitivity", "certificate", "equilibria",
                           "equations", "space"), "") | {"percentiles": draws} | {
         "name": case.name, "title": case.heading, "source": case.source, "path": case.path,
-        "text": case.text, "headline": printed(line), "first": printed(line), "small": "",
+        "text": case.text, "headline": printed(line), "first": printed(first),
+        "small": capital(printed(small)),
         "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "badge": marked,
         "thumbnail": _thumbnail([(item, looks)], folder, stem), "tiles": [], "facts": [],
         "extremes": [], "pictures": drawn, "answer": printed(text),

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
@@ -380,13 +381,19 @@ def burn_text(case, result, units: Units) -> str:
     return "\n".join([*lines, f"why: {units.said(result.closed.motion.reason)}"])
 
 
+def burn_motion(result):
+    """The motion after the last closing with all that limits the answer on the burn."""
+    return replace(result.closed.motion, caveats=result.caveats)
+
+
 def burn_headline(result, units: Units) -> str:
-    """The answer of a burn in one line."""
+    """The answer of a burn in one line, with the time at which it passes the limit of its case."""
     item, latest = result.closed, result.latest
     if latest is None:
         after = ("largest rate not known" if item.largest_rate is None
                  else f"never above {units.rate(item.largest_rate, side=1)}")
-        return f"CLOSED at {units.moment(item.time)}, then {item.motion.fate.word.upper()}, {after}"
+        closed = f"CLOSED at {units.moment(item.time)}, then {item.motion.fate.word.upper()}, {after}"
+        return "; ".join(filter(None, (closed, limiting.reached(result.caveats, units))))
     aim = f"|ω| below {units.rate(latest.limit)}"
     over = ("" if latest.stated is None else
             f", {units.said(latest.looked, SHORT)}: the least of {latest.forces} "
