@@ -10,6 +10,7 @@ from hypothesis import settings
 
 from stabilab import cli
 from stabilab.__main__ import OBJECTS_BETWEEN_COLLECTIONS
+from stabilab.show import style
 
 os.environ["STABILAB_QUIET"] = "1"  # whether a command takes longer than a second hangs on the machine
 os.environ["MPLBACKEND"] = "Agg"  # no window
@@ -54,6 +55,22 @@ def no_picture_is_left_open():
     yield
     if plt := sys.modules.get("matplotlib.pyplot"):
         plt.close("all")
+
+
+@pytest.fixture(autouse=True, scope="session")
+def no_title_has_more_than_two_lines():
+    """Of any picture that a test writes: the title of the figure, and those of its panels."""
+    save = style.save
+
+    def checked(figure, *rest, **more):
+        path = save(figure, *rest, **more)
+        titles = [figure._suptitle, *(title for ax in figure.axes for title in (ax.title, ax._left_title))]
+        for title in filter(None, titles):
+            assert title._get_wrapped_text().count("\n") < 2, title.get_text()
+        return path
+    style.save = checked
+    yield
+    style.save = save
 
 
 @pytest.fixture

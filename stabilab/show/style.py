@@ -84,6 +84,7 @@ PAGE = 64  # colours of a picture on a page
 AREA, LINE = 0.002, 2e-4  # parts of a picture in one colour: from which on it is drawn in no other
 APART = 24  # of 255: but for so much
 SMALL = 8  # how hard zlib tries: the last step takes thrice as long for two parts in a hundred
+TITLE_LINES = 2  # of a picture of its own; more stand below it
 MARGIN = 0.3  # inches beside a line of a title
 TITLE = 0.008  # inches that a letter of a title takes, a point of its size
 # inches from which on letters have their full size; the least share of it in smaller figures: 7 points
@@ -273,6 +274,36 @@ def fitting(text: str, width: float) -> float:
     usual = FontProperties(size=matplotlib.rcParams["axes.titlesize"]).get_size_in_points()
     least = RC["legend.fontsize"] * share()
     return max(min(usual, least), min(usual, (width - MARGIN) / (TITLE * max(1, len(text)))))
+
+
+def titled(heading: str, said: list[str], width: float,
+           most: int = TITLE_LINES) -> tuple[str, float, list[str]]:
+    """(the text of a title of so many lines, the size of its letters, lines without room in it), for a
+    heading as its user wrote it and lines of the program, over so many inches."""
+    size = fitting(said[0] if said else "", width)
+    first = clauses(said[0], width, size).split("\n") if said else []
+    if len(first) > 1 and (share() == 1 or len(first) > most):
+        first, said = [], ["", *said]
+    room = most - len(first)
+    own = clauses(heading, width, size).split("\n") if heading else []
+    if len(own) > room > 0:
+        own[room - 1:] = [f"{own[room - 1].rstrip(',;:')} ..."]
+    return "\n".join(map(literal, (*own[:room], *first))), size, said[1:]
+
+
+def over(figure, heading: str, line: str = "", left: bool = False) -> list[str]:
+    """Give a figure a title as of `titled`, of a line at most beside the heading; returns that line where it
+    has no room. left: at its left edge, not in the middle."""
+    text, size, rest = titled(heading, [line] if line else [], figure.get_figwidth())
+    figure.suptitle(text, fontsize=size, **({"x": 0.02, "ha": "left"} if left else {}))
+    return rest
+
+
+def above(ax, heading: str, line: str = "") -> list[str]:
+    """As `over`, at the left of axes that are as wide as their figure."""
+    text, size, rest = titled(heading, [line] if line else [], ax.figure.get_figwidth())
+    ax.set_title(text, fontsize=size, loc="left")
+    return rest
 
 
 def clauses(text: str, width: float, size: float | None = None) -> str:

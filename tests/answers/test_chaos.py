@@ -11,6 +11,7 @@ import pytest
 
 import stabilab
 from stabilab.answers.chaos import Chaos, Order
+from stabilab.case.given import as_case
 from stabilab.errors import InputError
 from stabilab.maps.plan import planned
 from stabilab.maps.run import run
@@ -124,6 +125,22 @@ def test_the_picture_of_a_motion_that_passes_no_plane_is_its_number_over_time(tm
     from stabilab.answers.chaos import row_of
     found = stabilab.chaos(one.scene, row_of(one.scene, one.state, one.blocks), until=5)
     assert picture.write(one, found, tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.slow
+def test_the_picture_of_an_island_says_below_its_two_lines_what_motions_go_round(tmp_path, monkeypatch):
+    """The plane over its panel, passages and the periodic motion in the middle in the legend."""
+    from stabilab.show import style
+    from stabilab.show.maps import chaos as picture
+    from tests.show.test_section import ISLAND, START
+    saved = []
+    monkeypatch.setattr(picture, "GRID", 3)
+    monkeypatch.setattr(style, "save", lambda figure, path, *rest: saved.append(
+        (figure.get_suptitle(), figure.axes[0].get_title(), figure.legends[0].get_title().get_text())))
+    picture.write(as_case(ISLAND, START), stabilab.chaos(ISLAND, START, until=50), tmp_path / "a.png")
+    ((title, plane, notes),) = saved
+    assert title.split("\n")[1:] == ["this motion is regular"] and plane.startswith("passages where")
+    assert all(part in notes for part in ("300 passages in", "in the middle: period", "deg a passage"))
 
 
 def test_of_a_motion_that_spins_up_there_is_nothing_to_see_and_no_file(stabilab, tmp_path):

@@ -132,12 +132,11 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     for m, kind in enumerate(shown):
         below = [axes[m, 0]] if alone else list(axes[:, m])
         _explained(figure, below, atlas, kind, times, units)
-    figure.suptitle(f"{style.literal(atlas.asked.case.title or atlas.asked.case.name)}\ntorque of "
-                    f"{units.torque(float(atlas.asked.torque))} in every direction",
-                    fontsize=10.5, wrap=True)
-    records = np.concatenate([atlas.records, atlas.named_records])
     case = atlas.asked.case
-    style.legend(figure, [], notes=notes.below(figure, case, limits_of(case, records)))
+    rest = style.over(figure, case.title or case.name,
+                      f"torque of {units.torque(float(atlas.asked.torque))} in every direction")
+    records = np.concatenate([atlas.records, atlas.named_records])
+    style.legend(figure, [], notes=notes.below(figure, case, limits_of(case, records), before=rest))
     return figure
 
 

@@ -101,11 +101,11 @@ def _drawn(case: Case, result: CircularOrbit, rows: Any, units: Units, plt: Any)
     axes[-1].set_xlabel("momentum of the wheels (N m s)")
     counts_above(axes[0], ends, [(span.low, span.high, str(span.count)) for span in result.spans],
                  [span.low for span in result.spans])
-    figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of equilibria, two or "
-                    "more a line", x=0.02, ha="left", fontsize=10.5, wrap=True)
+    rest = style.over(figure, case.title or case.name,
+                      "in bold: the number of equilibria, two or more a line", left=True)
     kinds = dict.fromkeys(branch.verdict for branch in rows)
     style.legend(figure, {VERDICT_LABELS[kind]: style.MEANING[kind] for kind in kinds} | own[0],
-                 notes=notes.below(figure, case, of_case(case)))
+                 notes=notes.below(figure, case, of_case(case), before=rest))
     return figure
 
 
@@ -137,18 +137,18 @@ def write(result: Diagram | Plane, out: str | Path, size: tuple[float, float] | 
 
 def drawn(result: Diagram | Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
     """The figure."""
-    figure = _line(result, size, plt) if isinstance(result, Diagram) else _plane(result, size, plt)
+    figure, rest = (_line if isinstance(result, Diagram) else _plane)(result, size, plt)  # type: ignore[operator]
     handles, text = figure.axes[0].get_legend_handles_labels()
     retained = dict(zip(text, handles))
     case = result.family.case
     style.below(figure, list(retained.values()), list(retained),
-                notes=notes.below(figure, case, of_case(case)))
+                notes=notes.below(figure, case, of_case(case), before=rest))
     return figure
 
 
-def _line(out: Diagram, size: tuple[float, float] | None, plt: ModuleType) -> Any:
+def _line(out: Diagram, size: tuple[float, float] | None, plt: ModuleType) -> tuple[Any, list[str]]:
     """The figure over one number: a panel for each component that moves, branches stable or not, events
-    marked."""
+    marked; and the lines that its title has no room for."""
     rows = branches(out)
     moving = ([i for i in range(3) if any(abs(state[i]) > 0 for branch in rows for state in branch.states)]
               or [0])
@@ -165,9 +165,7 @@ def _line(out: Diagram, size: tuple[float, float] | None, plt: ModuleType) -> An
                   for piece in out.pieces], [event.value for event in (*out.events, *out.connections)])
     case = out.family.case
     counted = "changes of stability" if out.kind == BORDERS else "equilibria"
-    figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of {counted}", x=0.02,
-                    ha="left", fontsize=10.5, wrap=True)
-    return figure
+    return figure, style.over(figure, case.title or case.name, f"in bold: the number of {counted}", left=True)
 
 
 def _panel(ax: Any, result: Diagram, rows: list[Branch], i: int, x: float) -> None:
@@ -207,9 +205,9 @@ OTHER = light(style.BLACK, 0.35)
 SMALL = 0.004  # of the whole: regions below bear no number
 
 
-def _plane(result: Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
-    """The figure over two numbers: the curves at which equilibria change, the number in each region, cusps.
-    """
+def _plane(result: Plane, size: tuple[float, float] | None, plt: ModuleType) -> tuple[Any, list[str]]:
+    """The figure over two numbers: the curves at which equilibria change, the number in each region, cusps;
+    and the lines that its title has no room for."""
     first, second = result.family.spans
     figure, ax = plt.subplots(layout="constrained", figsize=size or (8, 6))
     bands = [band for strip in result.strips for band in _bands(result, strip) if band["p"]]
@@ -242,8 +240,7 @@ def _plane(result: Plane, size: tuple[float, float] | None, plt: ModuleType) -> 
         printed(with_unit(span.label, span.shown_unit))
     case = result.family.case
     shown = "changes of stability" if result.kind == "borders" else "number of equilibria"
-    ax.set_title(f"{style.literal(case.title or case.name)}\n{shown}", loc="left", wrap=True)
-    return figure
+    return figure, style.above(ax, case.title or case.name, shown)
 
 
 def _bands(result: Plane, strip: Strip) -> list[dict[str, Any]]:

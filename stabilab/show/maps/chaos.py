@@ -13,11 +13,12 @@ from ...orbit.result import OUTCOMES, Fate
 from ...packages import demand
 from .. import endings, style
 from ..limiting import Line
-from ..plot import phase_plane
+from ..plot import canvas, phase_plane
 from ..plot import subject as subjects
 from ..plot.subject import Measures, Subject, measures, subject
-from ..terminal import lettered
-from ..units import number
+from ..terminal import lettered, written
+from ..text.notes import as_note, fitted
+from ..units import SHORT, number
 from .shades import scale as colours_of_numbers
 
 # --- Chaos as a picture: the Poincare section of a motion, beside it MEGNO of all motions that start on its
@@ -37,17 +38,26 @@ def write(case: Any, result: Chaos, out: str | Path) -> Path | str:
     why = subjects.why_not("section", item)
     if why and not np.isfinite(result.history).any():
         return f"no picture is written: {result.because}"
+    word = Order(int(result.labels)).word
     with style.drawing() as plt:
         if why:
             figure, ax = plt.subplots(figsize=(7.6, 4.8), layout="constrained")
             _over_time(ax, case, result)
+            style.over(figure, item.heading, word)
             return style.save(figure, target)
         if phase_plane.repeats(item):
             rings: Any = phase_plane.section(item).figure
             return style.save(rings, target)
         figure, (left, right) = plt.subplots(1, 2, figsize=SIZE, layout="constrained")
-        phase_plane.section(item, ax=left, neighbours=NEIGHBOURS)
-        _map(figure, right, left, item, float(result.times[-1]) / SHORTER)
+        rows, (plane, *passed) = phase_plane.scattered(item, left, measures(item), NEIGHBOURS)
+        more, phrase = _map(figure, right, left, item, float(result.times[-1]) / SHORTER)
+        plane = f"passages {written(plane)}"
+        width = left.get_position().width * figure.get_figwidth()
+        left.set_title(plane, fontsize=style.fitting(plane, width))
+        style.over(figure, item.heading, f"this motion is {word}")
+        full = [*canvas.notes(item, measures(item), answered=False),
+                *(as_note(written(line)) for line in [*passed, phrase] if line)]
+        style.legend(figure, [*rows, *more], notes=fitted(full, figure.get_figwidth()))
         return style.save(figure, target)
 
 
@@ -55,13 +65,16 @@ def _over_time(ax: Any, case: Any, result: Chaos) -> None:
     ax.plot(result.times, result.history, marker="o", color=style.VIOLET)
     ax.axhline(2, color=style.GREY, linewidth=0.8)
     ax.set_xscale("log")
+    ax.set_xticks(result.times, [number(time, SHORT) for time in result.times.tolist()])
+    ax.set_xticks([], minor=True)
     ax.set_xlabel(f"followed for ({case.scene.time_unit})")
     ax.set_ylabel("MEGNO (2 on tori)")
-    ax.set_title(style.literal(f"{case.title or case.name}\n{Order(int(result.labels)).word}"), wrap=True)
 
 
-def _map(figure: Any, ax: Any, beside: Any, item: Subject, until: float) -> None:
-    """MEGNO of the motions from the window of the section; those that spin up in a colour of their own."""
+def _map(figure: Any, ax: Any, beside: Any, item: Subject,
+         until: float) -> tuple[list[tuple[str, dict[str, Any]]], str]:
+    """MEGNO of the motions from the window of the section; those that spin up in a colour of their own. Rows
+    of the legend; and a sentence in place of a map of one colour, whose axes are taken away."""
     scale: Measures = measures(item)
     _, plane = phase_plane.plane_of(item, subjects.certain_from(item))
     limits = beside.get_xlim(), beside.get_ylim()
@@ -70,15 +83,14 @@ def _map(figure: Any, ax: Any, beside: Any, item: Subject, until: float) -> None
     states[..., plane.across[0]], states[..., plane.across[1]] = x[:, None] / scale.rate[1], y / scale.rate[1]
     result = chaos(item.twin, states, until)
     if len(labels := set(result.labels.ravel().tolist())) == 1:
-        _alone(figure, ax, beside, f"of {result.labels.size} motions from this plane, each followed for "
-                                   f"{number(until)} {item.scene.time_unit}, all are {Order(*labels).word}")
-        return
+        _alone(figure, ax, beside)
+        return [], (f"of {result.labels.size} motions from this plane, each followed for {number(until)} "
+                    f"{item.scene.time_unit}, all are {Order(*labels).word}")
     extent = (*limits[0], *limits[1])
     leaving = np.where(result.labels == Order.SPIN_UP, 1.0, np.nan)
     ax.grid(False)
     look = {"origin": "lower", "extent": extent, "aspect": "auto", "interpolation": "nearest"}
     from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch
     ax.imshow(leaving.T, cmap=ListedColormap([style.FILL["spin-up"]]), **look)
     shown = ax.imshow(result.megno.T, cmap=colours_of_numbers(), vmin=0, vmax=TOP, **look)
     figure.colorbar(shown, ax=ax, label="MEGNO (2 on tori, grows where chaotic)", extend="both")
@@ -89,22 +101,16 @@ def _map(figure: Any, ax: Any, beside: Any, item: Subject, until: float) -> None
     ax.set_xlabel(beside.get_xlabel())
     ax.set_ylabel(beside.get_ylabel())
     ax.set_title(f"motions from this plane, each followed for {number(until)} {item.scene.time_unit}")
-    printed = beside.get_legend()
-    handles, phrases = list(printed.legend_handles), [text.get_text() for text in printed.get_texts()]
-    printed.remove()
-    if np.isfinite(leaving).any():
-        handles = [*handles, Patch(facecolor=style.FILL["spin-up"])]
-        phrases = [*phrases, OUTCOMES[Fate.SPIN_UP].legend]
-    figure.legend(handles, phrases, loc="outside lower center", ncols=5)
+    spun = np.isfinite(leaving).any()
+    return [(OUTCOMES[Fate.SPIN_UP].legend, {"facecolor": style.FILL["spin-up"]})] if spun else [], ""
 
 
-def _alone(figure: Any, ax: Any, beside: Any, phrase: str) -> None:
-    """The section on a figure of its own, with a sentence in place of a map of one colour."""
+def _alone(figure: Any, ax: Any, beside: Any) -> None:
+    """The section on a figure of its own."""
     from matplotlib.gridspec import GridSpec
     ax.remove()
     figure.set_size_inches(SIZE[0] * 0.6, SIZE[1])
     beside.set_subplotspec(GridSpec(1, 1, figure=figure)[0])
-    beside.set_title(f"{beside.get_title()}\n{phrase}", wrap=True)
 
 
 # --- Whether a motion is regular or chaotic, in words, JSON and CSV: the label, how it is known, MEGNO over

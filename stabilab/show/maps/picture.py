@@ -55,7 +55,7 @@ def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> 
     x, behind = np.asarray(data[along]), kind if kind in shades.FLAGS else "fate"
     order, rows = np.argsort(x), {}
     shades.furnish(axes[-1, 0], data, along)
-    axes[0, 0].set_title(_title(data), loc="left", wrap=True)
+    style.above(axes[0, 0], _title(data))
     for ax, names in zip(axes[:, 0], panels):
         if behind in data:
             _bands(ax, x[order], np.asarray(data[behind])[order], shades.looks(data, behind))
@@ -71,7 +71,7 @@ def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> 
 
 
 def _title(data: Any) -> str:
-    return style.literal(str(data.attrs.get("title", "")))
+    return str(data.attrs.get("title", ""))
 
 
 def _dimension(data: Any, plan: Any, name: str) -> int:
@@ -161,14 +161,11 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
             ax.set_xlabel(shades.label(data, moving[0]))
         rows |= {} if panel else shades.mark_own(
             ax, [shades.own_value(plan, _dimension(data, plan, name)) for name in moving[:2]])
-        ax.set_title(",\n".join(
-            f"{shades.spoken_key(data, name)} = {number(float(data[name][n]))} {_unit(data, name)}".strip()
-            for name, n in panel.items()))
+        ax.set_title(*_panel_title(data, panel, figure.get_figwidth() / across))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)
     full = math.prod(data.sizes[name] for name in panels[0])
-    part = f" ({len(panels)} of {full} maps)" if len(panels) < full else ""
-    figure.suptitle(_title(data) + part, fontsize=10.5, wrap=True)
+    style.over(figure, _title(data), f"{len(panels)} of {full} maps" if len(panels) < full else "")
     if kind not in shades.FLAGS:
         of_axes = (f", {'least' if kind == 'least' else 'greatest'} of the three axes"
                    if "axis" in data[kind].dims else "")
@@ -180,6 +177,15 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
             bar.ax.tick_params(length=0)
     style.legend(figure, rows, notes=_notes(figure, data))
     return figure
+
+
+def _panel_title(data: xarray.Dataset, panel: dict[str, int], inches: float) -> tuple[str, dict[str, float]]:
+    """The values at which a map of several is, in two lines at most, and the size of their letters."""
+    parts = [f"{shades.spoken_key(data, name)} = {number(float(data[name][n]))} {_unit(data, name)}".strip()
+             for name, n in panel.items()]
+    half = -(-len(parts) // style.TITLE_LINES)
+    lines = [", ".join(part) for part in (parts[:half], parts[half:]) if part]
+    return ",\n".join(lines), {"fontsize": style.fitting(max(lines, key=len, default=""), inches)}
 
 
 def _notes(figure: Any, data: xarray.Dataset) -> str:
@@ -386,7 +392,7 @@ def _histograms(data, kind, size, plt):
         ax.set_ylabel("samples")
         if "fate" in data:
             ax.legend(loc="best")
-    axes[0, 0].set_title(f"{_title(data)}: {data.sizes[shades.SAMPLE]:,} samples", loc="left", wrap=True)
+    style.above(axes[0, 0], _title(data), f"{data.sizes[shades.SAMPLE]:,} samples")
     style.legend(figure, [], notes=_notes(figure, data))
     return figure
 
@@ -404,7 +410,7 @@ def _shares(data, moving, size, plt):
     ax.set_ylim(0, 100)
     shades.furnish(ax, data, moving[0])
     ax.set_ylabel(f"share of {data.sizes[shades.SAMPLE]:,} samples (%)")
-    ax.set_title(_title(data), loc="left", wrap=True)
+    style.above(ax, _title(data))
     style.legend(figure, rows, notes=_notes(figure, data))
     return figure
 

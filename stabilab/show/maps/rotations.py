@@ -141,8 +141,8 @@ def _drawn(result: RotationDiagram, plt: Any) -> Any:
                  [float(value) for value in result.changes])
     held = (f"|H| = {number(result.momentum or 0.0, 6)} N m s" if result.rate is None
             else f"{number(result.rate, 6)} rad/s about the wheels' axis")
-    figure.suptitle(f"{style.literal(result.case.title or result.case.name)}\n{held}; in bold: how many "
-                    "attract with losses", x=0.02, ha="left", fontsize=10.5, wrap=True)
+    rest = style.over(figure, result.case.title or result.case.name,
+                      f"{held}; in bold: how many attract with losses", left=True)
     style.legend(figure, [(HEADS[nature], looks[nature]) for nature in HEADS if nature in points],
-                 notes=notes.below(figure, result.case, of_case(result.case)))
+                 notes=notes.below(figure, result.case, of_case(result.case), before=rest))
     return figure

@@ -126,12 +126,11 @@ def _drawn(result: TopDiagram, plt: Any) -> Any:
     ax.set_ylabel("lean of the axis from the upward vertical (deg)")
     counts_above(ax, ends, [(piece.low, piece.high, _word(piece.stable(UPRIGHT))) for piece in result.pieces],
                  [float(value) for value in result.changes])
-    figure.suptitle(f"{style.literal(result.case.title or result.case.name)}\nsteady motions at the area "
-                    "integral of the upright or the hanging top; in bold: upright", x=0.02, ha="left",
-                    fontsize=10.5, wrap=True)
+    rest = style.over(figure, result.case.title or result.case.name, "steady motions at the area integral of "
+                      "the upright or the hanging top; in bold: upright", left=True)
     shown = [word for word in (STABLE, UNSTABLE) if any(_word(stable) == word for _, _, stable in lines)]
     style.legend(figure, [(word, style.MEANING[word]) for word in shown],
-                 notes=notes.below(figure, result.case, of_case(result.case)))
+                 notes=notes.below(figure, result.case, of_case(result.case), before=rest))
     return figure
 
 

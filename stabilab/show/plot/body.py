@@ -74,7 +74,7 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
                 text.set_text(LETTER_ALONE.sub("", text.get_text()))
             text.set(path_effects=halo, zorder=LETTERS["zorder"])
         if not bare:
-            canvas.title(target, item.heading, most=canvas.TITLE_LINES if ax is None else None)
+            canvas.title(target, item.heading, most=style.TITLE_LINES if ax is None else None)
         if legend and not small:
             notes = [] if bare else canvas.notes_of_case(item, measures(item, units))
             style.legend(target.figure, rows, columns=1,

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
-TITLE_LINES = 2  # of a picture of its own; more stand below it
 AFTER_BURN = "the free motion after the last closing"
 BELOW = 0.14  # inches between axes in space and their legend, in a figure with room for it
 
@@ -63,7 +62,7 @@ def explained(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bo
     own: whether the figure is of this picture alone: its title has two lines then, and what it has no room
     for stands below; axes that were given have all in their title."""
     if own:
-        rest = title(ax, heading, *lines, most=TITLE_LINES)
+        rest = title(ax, heading, *lines, most=style.TITLE_LINES)
         legend(ax, rows, own, [*notes, *(Note(line, line) for line in rest)])
     else:
         title(ax, heading, *lines[:1], "; ".join(note.full for note in notes), *lines[1:])
@@ -129,29 +128,9 @@ def title(ax: Any, heading: str, *lines: str, most: int | None = None) -> list[s
         shown = [style.clauses(line, inches) for line in filter(None, (heading, *said))]
         ax.set_title("\n".join(map(style.literal, shown)), wrap=True)
         return []
-    text, size, rest = _fitted_title(heading, said, inches, most)
+    text, size, rest = style.titled(heading, said, inches, most)
     drawn = ax.set_title(text, fontsize=size)
     if width == 1.0:  # over the figure, as axes with words on their left are not in its middle
         from matplotlib.transforms import blended_transform_factory
         drawn.set_transform(blended_transform_factory(ax.figure.transFigure, drawn.get_transform()))
     return rest
-
-
-def over(figure: Any, heading: str, line: str) -> None:
-    """The title of a figure of several axes, in two lines as of `title`."""
-    said = [written(line)] if line else []
-    text, size, _ = _fitted_title(heading, said, figure.get_figwidth(), TITLE_LINES)
-    figure.suptitle(text, fontsize=size)
-
-
-def _fitted_title(heading: str, said: list[str], inches: float, most: int) -> tuple[str, float, list[str]]:
-    """(the text of a title of so many lines, the size of its letters, lines without room in it)."""
-    size = style.fitting(said[0] if said else "", inches)
-    first = style.clauses(said[0], inches, size).split("\n") if said else []
-    if len(first) > 1 and (style.share() == 1 or len(first) > most):
-        first, said = [], ["", *said]
-    room = most - len(first)
-    own = style.clauses(heading, inches, size).split("\n") if heading else []
-    if len(own) > room > 0:
-        own[room - 1:] = [f"{own[room - 1].rstrip(',;:')} ..."]
-    return "\n".join(map(style.literal, (*own[:room], *first))), size, said[1:]

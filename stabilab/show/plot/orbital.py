@@ -9,6 +9,7 @@ import numpy as np
 
 from ...errors import InputError
 from .. import labels, limiting, style
+from ..terminal import written
 from ..text import notes
 from ..text.motion import grows_in, orbit_headline
 from ..units import SHORT, Units, number, units_of
@@ -60,14 +61,14 @@ def attitudes(item: Subject, ax: Axes | None = None, units: str | None = None,
         figure.get_layout_engine().set(h_pad=canvas.BELOW)
         panels = [_panel(figure.add_subplot(down, across, n, projection="3d"), item, result, words, attitude,
                          system) for n, (words, attitude) in enumerate(shown, 1)]
-        canvas.over(figure, item.heading, _title(result))
+        rest = style.over(figure, item.heading, written(_title(result)))
         if legend:
             verdicts = {attitude.verdict for _, attitude in shown}
             rows = [(words, look) for words, look in LOOKS.items() if words.split()[0] in verdicts]
             style.legend(figure, [*rows, *((f"axis {item.axes.full(n)}", {"color": colour, "linewidth": 2.0})
                                            for n, colour in enumerate(style.AXES, 1))],
-                         notes=notes.fitted(limiting.notes(result.caveats, _title(result), system),
-                                             figure.get_figwidth()))
+                         notes=notes.fitted([*map(notes.as_note, rest), *limiting.notes(
+                             result.caveats, _title(result), system)], figure.get_figwidth()))
         labels.apart(*panels)
     return panels[0]
 

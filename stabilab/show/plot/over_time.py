@@ -286,7 +286,7 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
         became = "; ".join(clauses).rsplit(" (", 1)[0]  # without how well that is known
         canvas.title(ax, "", f"{row_name(row)}: {became}")
         printed |= {text.partition(" after ")[0]: look for text, look in drawn}
-    canvas.over(figure, case.heading, "")
+    style.over(figure, case.heading)
     canvas.legend(axes[-1, 0], list(printed.items()), True)
     return figure
 
@@ -339,11 +339,12 @@ def states(case: Any, start: Any = None, span: Any = None, size: tuple[float, fl
         raise InputError(f"parts: expected one or two of {', '.join(have)}, got {parts!r:.60}")
     shown, law = list(parts or have), runs["exact"].validity
     groups = [shown[n:n + ROWS] for n in range(0, len(shown), ROWS)]
-    warned = f"\n{law.short}" if law is not None and not law.held else ""
+    warned = law.short if law is not None and not law.held else ""
     with matplotlib.rc_context(style.RC | style.letters(size)):
+        parted = [f"{n} of {len(groups)}" * (len(groups) > 1) for n in range(1, len(groups) + 1)]
         return [cost.picture(plt, item, runs, group, size, scale.system,
-                                   f" ({n} of {len(groups)})" * (len(groups) > 1) + warned)
-                for n, group in enumerate(groups, 1)]
+                             "; ".join(filter(None, (part, warned))))
+                for part, group in zip(parted, groups)]
 
 
 def _turns(state: Any) -> int:

@@ -206,24 +206,32 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     _check("passages", PASSAGES if passages is None else passages, 1, MOST)
     if not len(rest) and repeats(item):
         return _rings(item, ax, units, size, legend, neighbours)
+    with canvas.on(ax, size or canvas.SQUARE) as target:
+        rows, lines = scattered(item, target, measures(item, units), neighbours, passages, rest)
+        return canvas.explained(target, rows if legend else [], ax is None, item.heading, *lines,
+                                notes=canvas.notes(item, measures(item, units), answered=False))
+
+
+def scattered(item: Subject, ax: Axes, scale: Measures, neighbours: int | None = None,
+              passages: int | None = None, others: Sequence[Any] = ()) -> tuple[list[Any], list[str]]:
+    """Draw the section of a motion that does not repeat, or of several; the rows of its legend, and lines on
+    the plane, the passages and what they go round. others: states beside its own; the rest as of `section`.
+    """
     fan = next((n for n in (neighbours, item.neighbours) if n is not None), USUAL)
     _check("neighbours", fan, 0, FAN)
-    scale, until = measures(item, units), subjects.certain_from(item)
+    until = subjects.certain_from(item)
     orbit, plane = plane_of(item, until)
     count, followed = passages or _round(PASSAGES, orbit), _round(NEIGHBOUR_PASSAGES, orbit)
     times, places = returns(item.twin, item.state, plane, count, until)
     sets = [(THIS, "this motion", places)]
     sets += [(OTHER, "the other states", result)
-             for result in [_together([returns(item.twin, row, plane, count)[1] for row in rest])]
+             for result in [_together([returns(item.twin, row, plane, count)[1] for row in others])]
              if len(result)]
     stay, leave = _fan(item.twin, orbit, plane, places, min(followed, len(places)), fan)
     sets += [(STAYS, "neighbours", stay)] * bool(len(stay))
-    with canvas.on(ax, size or canvas.SQUARE) as target:
-        rows = _draw(target, sets, leave, orbit, plane, scale)
-        return canvas.explained(target, rows if legend else [], ax is None, item.heading,
-                                _plane_words(plane, scale),
-                                *_passed(item, times, places, until, scale, orbit),
-                                notes=canvas.notes(item, scale, answered=False))
+    rows = _draw(ax, sets, leave, orbit, plane, scale)
+    lines = [_plane_words(plane, scale), *_passed(item, times, places, until, scale, orbit)]
+    return rows, [line for line in lines if line]
 
 
 # of a motion that repeats: closed orbits

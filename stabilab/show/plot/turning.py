@@ -347,7 +347,7 @@ def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
     names = [ax.text(0, 0, 0, item.axes.label(n), color=colour, fontsize=11, weight="bold", path_effects=halo)
              for n, colour in enumerate(COLOURS, 1)]
     now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center", va="center")
-    canvas.title(ax, item.heading, canvas.answer(item, scale), most=canvas.TITLE_LINES)
+    canvas.title(ax, item.heading, canvas.answer(item, scale), most=style.TITLE_LINES)
     ax.text2D(0.5, -0.02, "\n".join(filter(None, (result.words, result.part(scale.system)))),
               transform=ax.transAxes, ha="center", va="top", fontsize="small")
     pointers: list[Any] = []

@@ -21,6 +21,7 @@ from .. import style
 from ..data import csv_lines
 from ..terminal import lettered, some, written
 from ..units import SHORT, Units, number, units_of
+from . import notes
 from .simulation import theory_lines
 
 if TYPE_CHECKING:
@@ -309,7 +310,7 @@ def write(case, result, path) -> Path:
 
 def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = None, more: str = ""):
     """A figure: one row per part of the state, one column per component, every model of `runs` over the exact
-    motion. units: None is those of the case. more: behind its title."""
+    motion. units: None is those of the case. more: a line below its title."""
     units = units or units_of(case)
     clock, second = units.times(runs["exact"].t[-1])
     parts = [p for p in parts if p in runs["exact"].state]
@@ -334,12 +335,12 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
             ax.set_ylabel(_labelled(ax, SYMBOLS[part][column], written(unit)))
     for ax in axes[-1]:
         ax.set_xlabel(f"$t$ ({written(clock)})")
-    figure.suptitle(style.literal(case.heading + more), fontsize=10 * style.share(), wrap=True)
+    rest = style.over(figure, case.heading, more)
     rows = [(MODEL_LABELS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if stops(run)
                             and len(run.t) else ""),
              looks[name] | ({"linewidth": 2.4} if LOOKS[name] != looks[name] else {}))  # of a ground: seen
             for name, run in runs.items()]
-    style.legend(figure, rows)
+    style.legend(figure, rows, notes=notes.fitted([*map(notes.as_note, rest)], figure.get_figwidth()))
     return figure
 
 

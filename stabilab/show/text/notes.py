@@ -1,7 +1,7 @@
 """What limits an answer, in lines below a picture."""
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -18,10 +18,17 @@ NOTE_LINES, SMALL_LINES = 3, (1, 2)  # of notes below a picture; below a small o
 COMMAND = "stabilab fate"  # which prints all notes
 
 
-def below(figure: Any, case: Case, caveats: Collection[Caveat], line: str = "") -> str:
-    """What limits the answers of a map and does not stand in a line of its title, for a figure's legend."""
+def below(figure: Any, case: Case, caveats: Collection[Caveat], line: str = "",
+          before: Iterable[str] = ()) -> str:
+    """What limits the answers of a map and does not stand in a line of its title, for a figure's legend.
+    before: lines that the title has no room for."""
     units = replace(units_of(case), axes=axes_of(case))
-    return fitted(limiting.notes(caveats, line, units), figure.get_figwidth())
+    return fitted([*map(as_note, before), *limiting.notes(caveats, line, units)], figure.get_figwidth())
+
+
+def as_note(line: str) -> Note:
+    """A line that has no shorter form."""
+    return limiting.Note(line, line)
 
 
 def fitted(notes: Sequence[Note], inches: float) -> str:
