@@ -609,3 +609,16 @@ def test_a_time_between_ends_far_apart_is_a_band(ends, words, marks):
     spans = [patch.get_extents().transformed(ax.transData.inverted()) for patch in ax.patches]
     assert [(round(box.x0, 9), round(box.x1, 9)) for box in spans] == ([(2, 8)] if words and not marks else [])
     plt.close(figure)
+
+
+def test_a_reason_names_only_what_acts_in_the_scene():
+    """As the files have it: [effects.gyrostat] and [effects.constant_torque], their components by hand."""
+    why = lambda kind, name: which.why_not(kind, subject.subject(load(name)))
+    for name, acting in (("minor-axis-100", "a wheel and a constant torque"), ("torque-free-gyrostat", "a wheel"),
+                         ("minor-axis-without-wheel", "a constant torque"),
+                         ("torque-free-body", "a body on which nothing acts")):
+        assert why("state", name).startswith(f"no approximate theory comes with {acting}: "), name
+    assert why("phase", "major-axis-100").endswith(": the gyrostatic moment has a component along the torque")
+    assert why("phase", "off-axis-one").endswith(": the torque is off the principal axes")
+    scene = stabilab.Scene(stabilab.Body((3, 2, 1)), stabilab.Gyrostat((1, 2, 3)))
+    assert which.why_not("phase", subject.subject(scene, (1, 2, 3))).endswith("components along all three axes")

@@ -213,8 +213,7 @@ FAR = (
     "other units")
 
 
-ALIKE = ("no approximate theory comes with a wheel and a constant torque: the rates over time are the exact "
-         "motion")
+ALIKE = "no approximate theory comes with {}: the rates over time are the exact motion"
 ON_ORBIT = ("equilibria", "body")
 NO_MOTION_ON_ORBIT = ("a motion on a circular orbit is not followed; its attitudes at rest are drawn: "
                       "--kind equilibria")
@@ -319,10 +318,27 @@ def _phase(item: Subject) -> str:
     if not item.twin.plain:
         return f"with {_beyond(item)} the motion does not reduce to one degree of freedom"
     if reduce(item.twin) is None:
-        return (
-            "the motion does not reduce to one degree of freedom (torque off the principal axes, or a wheel "
-            "along it)")
+        return f"the motion does not reduce to one degree of freedom: {_unreduced(item)}"
     return _far(item)
+
+
+def _unreduced(item: Subject) -> str:
+    """What of a scene with the rates of a gyrostat leaves no reduction."""
+    acting = sum(m != 0 for m in item.twin.quadratic().m)
+    if acting > 1:
+        return "the torque is off the principal axes"
+    return ("the gyrostatic moment has a component along the torque" if acting
+            else "the gyrostatic moment has components along all three axes")
+
+
+def _theory(item: Subject) -> str:
+    if not item.scene.plain:
+        return ""
+    body = bodily(item)
+    wheel = body is None or any(body.vector("gyrostat"))
+    torque = any(item.scene.quadratic().m)
+    return ALIKE.format(" and ".join(filter(None, ("a wheel" * wheel, "a constant torque" * torque)))
+                        or "a body on which nothing acts")
 
 
 def losing(item: Subject) -> bool:
@@ -395,7 +411,7 @@ NEEDS: dict[str, tuple[bool, Callable[[Subject], str]]] = {
               * (item.case is None or not item.case.uncertain)),
     "body that turns": (True, lambda item: "scaled variables have no body to turn: give the case in physical "
                                           "units" * (not item.physical)),
-    "theory": (True, lambda item: ALIKE * item.scene.plain),
+    "theory": (True, _theory),
     "span": (True, lambda item: "it needs a span: the time up to which the motion is followed"
              * (item.span is None))}
 
