@@ -15,12 +15,12 @@ from ...equilibrium.circular_orbit import OrbitEquilibrium
 from ...errors import InputError
 from ...maps.bifurcation.diagram import Branch, branches
 from ...maps.bifurcation.equations import BORDERS, CURVES, ENDLESS, Diagram
-from ...maps.bifurcation.plane import Plane, Strip
+from ...maps.bifurcation.plane import Plane, Strip, Wall
 from ...maps.bifurcation.plane import rows as arcs_of
 from ...numbers.vectors import dot
 from .. import style
 from ..text import notes
-from ..units import Units, units_of, with_unit
+from ..units import SHORT, Units, number, units_of, with_unit
 from .shades import light, mark_own, own_values
 
 if TYPE_CHECKING:
@@ -202,7 +202,9 @@ TOLD = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "branches cross", 
 FILLS = {0: "#FFFFFF", 1: light(style.BLACK, 0.07), 2: light(style.BLACK, 0.14), 3: light(style.BLACK, 0.21),
          4: light(style.BLACK, 0.28), ENDLESS: light(style.VIOLET, 0.25)}
 OTHER = light(style.BLACK, 0.35)
-SMALL = 0.004  # of the whole: regions below bear no number
+SMALL = 0.004  # of the whole: regions below have their number beside them
+ROOMY = 0.8  # of a figure: its axes, of which only about the place of a number beside a region is asked
+AWAY, APART = (24.0, 40.0, 60.0), 14.0  # points: of such a number from its region; from others and the edges
 
 
 def _plane(result: Plane, size: tuple[float, float] | None, plt: ModuleType) -> tuple[Any, list[str]]:
@@ -223,24 +225,59 @@ def _plane(result: Plane, size: tuple[float, float] | None, plt: ModuleType) -> 
                 **style.MEANING[CURVE_LOOKS[wall.kinds[0]]])
     for cusp in result.cusps:
         ax.plot(*cusp.at, label="cusp", zorder=5, clip_on=False, **style.MARKER["degenerate"])
-    full = float((first.high - first.low) * (second.high - second.low))
-    for region in _regions(bands, float(second.high - second.low)):
-        if sum(band["area"] for band in region) > SMALL * full:
-            best = max(region, key=lambda band: band["area"])
-            n = max(range(len(best["p"])),
-                    key=lambda n: (best["high"][n] - best["low"][n])
-                    * min(best["p"][n] - best["p"][0], best["p"][-1] - best["p"][n]))
-            ax.text(best["p"][n], 0.5 * (best["low"][n] + best["high"][n]),
-                    "curves" if best["count"] == ENDLESS else str(best["count"]), ha="center",
-                    va="center", fontsize=13, fontweight="bold", zorder=6)
     ax.set_xlim(float(first.low), float(first.high))
     ax.set_ylim(float(second.low), float(second.high))
+    left_out = numbered(ax, regions_of(bands, float(second.high - second.low), result.walls))
     mark_own(ax, own_values(result.family.spans, result.family.data))
     for printed, span in ((ax.set_xlabel, first), (ax.set_ylabel, second)):
         printed(with_unit(span.label, span.shown_unit))
     case = result.family.case
     shown = "changes of stability" if result.kind == "borders" else "number of equilibria"
-    return figure, style.above(ax, case.title or case.name, shown)
+    return figure, [*style.above(ax, case.title or case.name, shown), *left_out]
+
+
+def numbered(ax: Any, regions: list[list[dict[str, Any]]]) -> list[str]:
+    """Write the number into each region, beside a small one at the end of a line; a line on those that there
+    is no room for."""
+    (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
+    small, bold = [], {"ha": "center", "va": "center", "fontweight": "bold", "zorder": 6}
+    taken: list[tuple[float, float]] = []  # points
+    for region in regions:
+        best = max(region, key=lambda band: band["area"])
+        p, low, high = best["p"], best["low"], best["high"]
+        n = max(range(len(p)), key=lambda n: (high[n] - low[n]) * min(p[n] - p[0], p[-1] - p[n]))
+        at = p[n], 0.5 * (low[n] + high[n])
+        text = "curves" if best["count"] == ENDLESS else str(best["count"])
+        area = sum(band["area"] for band in region)
+        if area > SMALL * (right - left) * (above - below):
+            ax.text(*at, text, fontsize=13, **bold)
+            taken.append(_points(ax, at))
+        elif area > 0:
+            small.append((at, text))
+    rest = []
+    for at, text in small:
+        x, y = _points(ax, at)
+        ends = [(x + away * math.cos(turn), y + away * math.sin(turn)) for away in AWAY
+                for turn in (math.pi * (0.25 + 0.25 * k) for k in range(8))]
+        wide, tall = (ax.figure.get_figwidth() * 72 * ROOMY, ax.figure.get_figheight() * 72 * ROOMY)
+        end = next((end for end in ends if APART < end[0] < wide - APART and APART < end[1] < tall - APART
+                    and all(math.dist(end, other) > APART for other in taken)), None)
+        if end is None:
+            rest.append(f"{text} at ({number(at[0], SHORT)}, {number(at[1], SHORT)})")
+            continue
+        taken += [end, (x, y)]
+        ax.annotate(text, at, (end[0] - x, end[1] - y), textcoords="offset points", fontsize=10, **bold,
+                    bbox={"facecolor": "white", "edgecolor": style.GREY, "linewidth": 0.5, "pad": 1.5},
+                    arrowprops={"arrowstyle": "-", "color": style.BLACK, "linewidth": 0.7, "shrinkA": 1,
+                                "shrinkB": 0})
+    return [f"too small for a number: {'; '.join(rest)}"] if rest else []
+
+
+def _points(ax: Any, at: tuple[float, float]) -> tuple[float, float]:
+    """About where a place is in axes that fill their figure, in points from their lower left corner."""
+    (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
+    width, height = ax.figure.get_figwidth() * 72 * ROOMY, ax.figure.get_figheight() * 72 * ROOMY
+    return width * (at[0] - left) / (right - left), height * (at[1] - below) / (above - below)
 
 
 def _bands(result: Plane, strip: Strip) -> list[dict[str, Any]]:
@@ -259,14 +296,19 @@ def _bands(result: Plane, strip: Strip) -> list[dict[str, Any]]:
     return out
 
 
-def _regions(bands: list[dict[str, Any]], height: float) -> list[list[dict[str, Any]]]:
-    """Cells that touch across the end of a strip and have one number, together."""
+def regions_of(bands: list[dict[str, Any]], height: float,
+             walls: Sequence[Wall] = ()) -> list[list[dict[str, Any]]]:
+    """Cells that touch across the end of a strip and have one number, together, where no curve along that end
+    parts them."""
     groups: list[list[dict[str, Any]]] = [[band] for band in bands]
     for a in bands:
         for b in bands:
             meet = (a["p"] is not b["p"] and abs(a["p"][-1] - b["p"][0]) <= 1e-6
                     * (a["p"][-1] - a["p"][0] + b["p"][-1] - b["p"][0]))
-            overlap = min(a["high"][-1], b["high"][0]) - max(a["low"][-1], b["low"][0])
+            low, high = max(a["low"][-1], b["low"][0]), min(a["high"][-1], b["high"][0])
+            overlap = high - low - (sum(max(0.0, min(high, wall.high) - max(low, wall.low)) for wall in walls
+                                        if abs(wall.value - b["p"][0]) <= 1e-6 * (b["p"][-1] - b["p"][0]))
+                                    if meet else 0.0)
             if meet and a["count"] == b["count"] and overlap > 1e-3 * height:
                 item, other = (next(g for g in groups if any(band is x for x in g)) for band in (a, b))
                 if item is not other:

@@ -8,6 +8,8 @@ import pytest
 import stabilab
 from stabilab.commands import maps
 from stabilab.errors import InputError
+from stabilab.maps.bifurcation.plane import Wall
+from stabilab.show import style
 from stabilab.show.maps import bifurcation as words
 from stabilab.show.maps import bifurcation_picture as picture
 from stabilab.show.maps.bifurcation_picture import GAP, GLYPH, rows_apart
@@ -77,3 +79,34 @@ def test_labels_take_the_lowest_row_with_room_and_none_where_no_row_has():
 def test_a_range_that_is_missing_is_asked_for_in_the_form_that_a_diagram_takes():
     with pytest.raises(InputError, match=r'expected KEY=FROM:TO, got "torque\[3\]"'):
         maps.bifurcation(MINOR, ["torque[3]"], False, None, None, None, False, False, False)
+
+
+def _band(p, q, count):
+    """A rectangle from p[0] to p[1] and q[0] to q[1]."""
+    return {"p": [p[0], sum(p) / 2, p[1]], "low": [q[0]] * 3, "high": [q[1]] * 3, "count": count,
+            "area": (p[1] - p[0]) * (q[1] - q[0])}
+
+
+def test_small_regions_have_their_number_beside_them_and_those_without_room_are_named():
+    """Places by hand; boxes by Matplotlib."""
+    with style.drawing() as plt:
+        figure, ax = plt.subplots(layout="constrained", figsize=(8, 6))
+        ax.set(xlim=(0, 10), ylim=(0, 10))
+        small = [[_band((at, at + 0.1), (5, 5.1), n)] for n, at in enumerate((0, 3, 9.9))]
+        assert not picture.numbered(ax, [[_band((0, 10), (0, 5), 7)], *small])
+        figure.draw_without_rendering()
+        shown = {text.get_text(): text.get_window_extent() for text in ax.texts}
+        assert set(shown) == {"7", "0", "1", "2"}
+        frame = ax.get_window_extent()
+        for text, box in shown.items():
+            assert frame.x0 < box.x0 < box.x1 < frame.x1 and frame.y0 < box.y0 < box.y1 < frame.y1, text
+            assert not any(box.overlaps(other) for name, other in shown.items() if name != text), text
+        (line,) = picture.numbered(ax, [[_band((5 + n / 50, 5.01 + n / 50), (8, 8.01), n)] for n in range(40)])
+        assert line.startswith("too small for a number: ") and "39 at (5.785, 8.005)" in line
+
+
+def test_regions_of_one_number_are_apart_where_a_curve_parts_them():
+    halves = [_band((0, 1), (0, 1), 1), _band((1, 2), (0, 1), 1)]
+    assert list(map(len, picture.regions_of(halves, 1.0))) == [2]
+    assert list(map(len, picture.regions_of(halves, 1.0, [Wall(1.0, 0.0, 1.0, ("axis",))]))) == [1, 1]
+    assert list(map(len, picture.regions_of(halves, 1.0, [Wall(1.0, 0.0, 0.5, ("axis",))]))) == [2]
