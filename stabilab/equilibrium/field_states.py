@@ -188,7 +188,10 @@ BRANCH = Sentence("branch-number", "branch {number}")
 A_CIRCLE = Sentence("a-circle-about", "a circle about {axis}")
 BALANCE = Sentence("balance-of-rotation", "ω = Ω γ, ((Ω² - N) D γ + Ω Λ + s) x γ = 0")()
 WITH_CHARGE = Sentence("with-charge-term", "with the charge's term")()
-GAMMA_OF_RATE = Sentence("gamma-of-rate", "γᵢ = -bᵢ/(Sᵢ - μ)")()
+GAMMA_OF_RATE = Sentence("gamma-of-rate", "γᵢ = (Ω Λᵢ + sᵢ)/(μ - (Ω² - N) Dᵢ), μ by |γ| = 1")()
+GAMMA_WITH_CHARGE = Sentence(
+    "gamma-of-rate-charged",
+    "γᵢ = (Ω Λᵢ + sᵢ)/(μ - (Ω² - N) Dᵢ), for i = 3 with + Ω E below the line, μ by |γ| = 1")()
 ALL_TURNS = Sentence("all-turns-in-circle", "and all its turns in the circle")()
 GENERIC = 0.7  # rad: an angle on a circle that nothing singles out
 REASON = Sentence(
@@ -270,7 +273,8 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
     name = BRANCH(number=number).then(
         A_CIRCLE(axis=Axis(6 - sum(i + 1 for i in circle))) if circle else None, ", ")
     first, last = (Coefficient(end, RATE, 6) for end in (segments[0].t[0], segments[-1].t[1]))
-    parametrisation = OVER_RATE(low=first, high=last, unit=Unit(RATE)).then(GAMMA_OF_RATE)
+    parametrisation = OVER_RATE(low=first, high=last, unit=Unit(RATE)).then(
+        GAMMA_WITH_CHARGE if field.E != 0 else GAMMA_OF_RATE)
     about = Description(name, BALANCE.then(WITH_CHARGE if field.E != 0 else None, " "),
                         parametrisation.then(ALL_TURNS if circle else None, ", "), "Ω")
     return EquilibriumCurve(about, _point_function(field, branch), tuple(segments), tuple(changes),
@@ -281,9 +285,14 @@ def _judgement(sample: EquilibriumPoint) -> tuple[str, str, Reason]:
     return sample.linear, sample.verdict, sample.reason
 
 
+FARTHEST = 10  # times its finite end, or the largest cut: how far samples go on a branch without an end
+
+
 def _chosen(lo, hi, size, cuts):
     """Three values of Omega of a segment, and 0 (rest) where it is inside; none on a cut."""
-    some = [t for t in sample_parameters(lo, hi, size) if t not in cuts] or [values_inside(lo, hi, size)]
+    largest = FARTHEST * max(size, *(abs(end) for end in (lo, hi) if end is not None), Fraction(0))
+    ends = -largest if lo is None else lo, largest if hi is None else hi
+    some = [t for t in sample_parameters(*ends, size) if t not in cuts] or [values_inside(lo, hi, size)]
     some = [some[0], some[len(some) // 2], some[-1]]
     if (lo is None or lo < 0) and (hi is None or hi > 0) and 0 not in cuts:
         some.append(Fraction(0))

@@ -370,3 +370,23 @@ def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
     simple = min(abs(a - b) for n, a in enumerate(roots) for b in roots[:n]) > 1e-3
     word = "unstable" if roots.real.max() > 1e-3 else "stable" if simple else "degenerate"
     assert _verdict(arb(e2), arb(e3), arb(e4))[0] == word
+
+
+@pytest.mark.parametrize("name, text, charged", [
+    ("paper", "gamma_i = (Omega Lambda_i + s_i)/(mu - (Omega^2 - N) D_i), mu by |gamma| = 1", 0),
+    ("charged", "gamma_i = (Omega Lambda_i + s_i)/(mu - (Omega^2 - N) D_i), for i = 3 with + Omega E below the line, "
+     "mu by |gamma| = 1", 1)])
+def test_the_formula_of_a_branch_gives_its_samples_none_far_beyond_what_happens(name, text, charged):
+    """The formula as it is printed, mu from gamma_1; 10 times the largest rate at which a branch begins, ends or
+    changes, or the verdict does, as the code says."""
+    parts, curves = content(SCENES[name]), [c for c in found(name).curves if c.name.startswith("branch")]
+    D, lam, s = (np.array([float(v) for v in row]) for row in (parts.D, parts.Lambda, parts.s))
+    ends = [abs(t) for c in curves for piece in c.segments for t in piece.t if np.isfinite(t)]
+    for curve in curves:
+        assert text in curve.parametrisation
+        for p in curve.samples:
+            Omega, gamma = of_gamma(p)
+            below = -(Omega**2 - float(parts.N)) * D + charged * np.array([0, 0, Omega * float(parts.E)])
+            mu = (Omega * lam[0] + s[0]) / gamma[0] - below[0]
+            assert (Omega * lam + s) / (mu + below) == pytest.approx(gamma, rel=1e-6, abs=1e-9)
+            assert abs(Omega) <= 10 * max(ends) * (1 + 1e-12)
