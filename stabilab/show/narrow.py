@@ -17,6 +17,8 @@ WIDTH, PIXELS = 4.6, 368  # inches of a figure, and the pixels that it has on a 
 SMALLEST = 9 * WIDTH * 72 / PIXELS  # points of a letter of 9 pixels
 COLOURS, DPI = 32, 96  # of a file, which stays small: 441 pixels wide
 ALONE, PANEL, SPACE = 3.6, 2.1, 4.0  # inches of height: of the only panel, of one of several, of one in space
+BETWEEN = 0.2  # inches by which a title may reach into the room between two panels
+PAIRED = 2.7  # of one in space of several, two of which stand beside each other
 EQUAL = 3.4  # of a panel with one scale for both axes
 HEADING, NOTE = 10, 8.5  # points of a title, and of notes in a legend
 HALF = 0.55  # of a panel's width: words at a point beyond stand on its left
@@ -47,20 +49,21 @@ def narrowed(figure: Figure) -> Figure:
         figure.suptitle("")
     cells = _cells(figure)
     _name_all(cells)
-    heights = [_height(ax, len(cells)) for ax, _, _ in cells]
+    across = 2 if len(cells) > 2 and all(getattr(ax, "name", "") == "3d" for ax, _, _ in cells) else 1
+    heights = [_height(ax, len(cells)) if across == 1 else PAIRED for ax, _, _ in cells[::across]]
     if len(cells) > 1:
-        grid = figure.add_gridspec(len(cells), 1, height_ratios=heights)
+        grid = figure.add_gridspec(len(heights), across, height_ratios=heights)
         engine: Any = figure.get_layout_engine()
         engine.set(w_pad=0.09)  # inches: numbers at the ends of axes
         for n, (first, _, _) in enumerate(cells):
             spec = first.get_subplotspec()
             for ax in [ax for ax in figure.axes if ax.get_subplotspec() == spec]:
-                ax.set_subplotspec(grid[n])
+                ax.set_subplotspec(grid[divmod(n, across)])
     figure.set_size_inches(WIDTH, sum(heights))
     for text in figure.findobj(Text):
         text.set_fontsize(max(text.get_fontsize(), SMALLEST))
-    for (ax, _, _), height in zip(cells, heights):
-        _readable(ax, height)
+    for n, (ax, _, _) in enumerate(cells):
+        _readable(ax, heights[n // across], WIDTH if across == 1 else WIDTH / across + BETWEEN)
     for legend in list(figure.legends):
         _below(figure, legend)
     below = sum(legend.get_window_extent().height for legend in figure.legends) / figure.dpi
@@ -114,8 +117,8 @@ def _height(ax: Any, count: int) -> float:
     return ALONE if count == 1 else PANEL
 
 
-def _readable(ax: Axes, height: float) -> None:
-    """Labels within the panel, and numbers at its edges as large as the other letters."""
+def _readable(ax: Axes, height: float, width: float) -> None:
+    """Labels within the panel, inches, and numbers at its edges as large as the other letters."""
     for axis in filter(None, (ax.xaxis, ax.yaxis, getattr(ax, "zaxis", None))):
         ticks = axis.get_major_ticks()
         if ticks and ticks[0].label1.get_fontsize() < SMALLEST:
@@ -132,8 +135,10 @@ def _readable(ax: Axes, height: float) -> None:
             if across > HALF and right > 0 and text.get_ha() == "left":  # it would widen the picture
                 text.set(ha="right")
                 text.xyann = -right, up
-    ax.title.set_fontsize(min(ax.title.get_fontsize(), HEADING))
-    ax.title.set_text("\n".join(style.clauses(line, WIDTH, HEADING) for line in ax.get_title().split("\n")))
+    size = min(ax.title.get_fontsize(), HEADING)
+    ax.title.set_fontsize(size)
+    ax.title.set_text("\n".join(style.clauses(line, width, HEADING if width == WIDTH else size)
+                                for line in ax.get_title().split("\n")))
 
 
 def _thinned(figure: Figure, panels: list[Any]) -> None:

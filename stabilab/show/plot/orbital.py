@@ -29,7 +29,7 @@ VIEW = (18, -62)  # degrees: elevation, azimuth; the velocity points to the righ
 # rows of the direction cosines: the velocity, the orbit normal, up; each with its word and its end in a panel
 FRAME = (("velocity", (0.95, 0, 0)), ("orbit normal", (0, 1.1, 0)), ("to the Earth", (0, 0, -1.1)))
 COLOURS = {"stable": style.BLUE, "unstable": style.VERMILION, "undecided": style.AMBER}
-LOOKS = {f"{verdict} attitude": {"facecolor": colour, "alpha": 0.35} for verdict, colour in COLOURS.items()}
+LOOKS = {f"{verdict} attitude": {"facecolor": colour} for verdict, colour in COLOURS.items()}
 
 
 def attitudes(item: Subject, ax: Axes | None = None, units: str | None = None,

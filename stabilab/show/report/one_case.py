@@ -9,6 +9,7 @@ import math
 from base64 import b64encode
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -39,10 +40,10 @@ from ..text import percentiles
 from ..text.badge import badge
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
-from ..text.motion import circular_orbit_text, constants, margins, orbit_headline, shown, state
+from ..text.motion import Row, circular_orbit_rows, constants, margins, orbit_headline, shown, state
 from ..text.rotations import rotation_rows
 from ..text.scene import fates, key_columns, latex, of_all_combinations, of_motions
-from ..text.stuck import burn_headline, burn_motion, burn_text, burn_undecided
+from ..text.stuck import burn_headline, burn_motion, burn_rows, burn_two_lines, burn_undecided
 from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
 from . import formulas, html
 from .html import picture
@@ -241,12 +242,14 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
     units, answer = units_of(case), item.burned
     burning = answer is not None
     if burning:
-        line, text = burn_headline(answer, units), burn_text(case, answer, units)
+        line, rows = burn_headline(answer, units), burn_rows(case, answer, units)
+        first, small = burn_two_lines(answer, units)
         fate = "undecided" if burn_undecided(answer) else answer.closed.motion.fate.word
         looks = "conditional" if burn_undecided(answer) else look(burn_motion(answer))
     else:
         around = item.orbit
-        line, text = orbit_headline(around.equilibria), circular_orbit_text(case, around, units)
+        line, rows = orbit_headline(around.equilibria), circular_orbit_rows(case, around, units)
+        first, small = line, ""
         fate = looks = ""
     marked = fate and (fate if fate == "undecided" else badge(burn_motion(answer)))
     every = deep or not burning
@@ -264,7 +267,7 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         if kind != "histogram" or case.uncertain:  # a case without such numbers lacks nothing
             missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
     absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
-    caveats, (first, _, small) = limiting.beside(item.caveats, units, line), line.partition("; ")
+    caveats = limiting.beside(item.caveats, units, line)
     draws = "" if item.draws is None else percentiles.text(item.draws, units)
     return dict.fromkeys(("law", "exceeded", "over", "uncertain", "sensitivity", "certificate", "equilibria",
                           "equations", "space"), "") | {"percentiles": draws} | {
@@ -273,8 +276,21 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         "small": capital(printed(small)),
         "caveats": list(map(printed, caveats)), "fate": fate, "look": looks, "badge": marked,
         "thumbnail": _thumbnail([(item, looks)], folder, stem), "tiles": [], "facts": [],
-        "extremes": [], "pictures": drawn, "answer": printed(text),
+        "extremes": [], "pictures": drawn, "answer": _grouped(rows),
         "absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
+
+
+def _grouped(rows: list[str | Row]) -> list[dict[str, Any]]:
+    """Rows of an answer as a page has them: each group is a sentence, or rows that follow each other."""
+    groups: list[dict[str, Any]] = []
+    for item in rows:
+        if isinstance(item, str):
+            groups.append({"text": printed(item.strip())})
+        else:
+            if not groups or "rows" not in groups[-1]:
+                groups.append({"rows": []})
+            groups[-1]["rows"].append(tuple(map(printed, item)))
+    return groups
 
 
 def _over(text) -> str:

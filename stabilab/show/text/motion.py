@@ -5,7 +5,7 @@ with its unit. Attitude and circular orbit have JSON here as well."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
@@ -59,6 +59,14 @@ TILTED = 'any tilt of the torque may end this: --tilt "1 deg" says how soon'
 def row(name: str, text: str) -> str:
     """A name in its column, then the words."""
     return f"  {name:<{WIDE - 1}} {text}".rstrip()
+
+
+Row = tuple[str, str]  # a name, or "" where its words go on, and the words
+
+
+def in_columns(rows: Iterable[str | Row]) -> list[str]:
+    """Lines of a text: names in their column with their words, and sentences as they are."""
+    return [item if isinstance(item, str) else row(*item) for item in rows]
 
 
 def table(case: Case, motion: Motion, units: Units) -> list[str]:
@@ -435,24 +443,27 @@ def _frame(case, item):
 
 def circular_orbit_text(case, out, units: Units) -> str:
     """The answer first, then each pair of equilibria, and why."""
+    return "\n".join([f"{case.name}: {orbit_headline(out.equilibria)}",
+                      *in_columns(circular_orbit_rows(case, out, units))])
+
+
+def circular_orbit_rows(case, out, units: Units) -> list[str | Row]:
+    """What stands below the answer: rows, and sentences without a name."""
     result = out.equilibria
-    lines = [f"{case.name}: {orbit_headline(result)}",
-             row("orbit", f"rate {units.rate(out.rate)}, period {units.time(out.period)}"),
-             row("wheels", f"{units.vector(in_file(case, out.momentum), ('N m s', 1.0))}")]
+    rows: list[str | Row] = [("orbit", f"rate {units.rate(out.rate)}, period {units.time(out.period)}"),
+                             ("wheels", units.vector(in_file(case, out.momentum), ("N m s", 1.0)))]
     for number_, family in enumerate(result.points[::2]):
-        lines += _lines(case, out, family, units, f"{2 * number_ + 1} and {2 * number_ + 2}",
-                        result.points[2 * number_ + 1])
+        rows += _lines(case, out, family, units, f"{2 * number_ + 1} and {2 * number_ + 2}",
+                       result.points[2 * number_ + 1])
     for family in result.families:
-        lines += [row("family", units.said(family.consists)), *_lines(case, out, family, units, "one of it")]
+        rows += [("family", units.said(family.consists)), *_lines(case, out, family, units, "one of it")]
     for span in out.spans or ():
         kind = "families" if span.families else "equilibria"
-        lines.append(row("momentum", f"{number(span.low, DIGITS)} to {number(span.high, DIGITS)} N m s: "
-                                     f"{span.count} {kind}, {span.minima} of them stable (Lyapunov)"))
+        rows.append(("momentum", f"{number(span.low, DIGITS)} to {number(span.high, DIGITS)} N m s: "
+                                 f"{span.count} {kind}, {span.minima} of them stable (Lyapunov)"))
     reasons = dict.fromkeys((item.verdict, item.reason) for item in (*result.points, *result.families))
-    lines += [f"why: {units.said(result.reason)}",
-              *(f"  {verdict}: {units.said(because)}" for verdict, because in reasons),
-              f"assumed: {ASSUMED}"]
-    return "\n".join(lines)
+    return [*rows, f"why: {units.said(result.reason)}",
+            *(f"  {verdict}: {units.said(because)}" for verdict, because in reasons), f"assumed: {ASSUMED}"]
 
 
 def orbit_headline(result) -> str:
@@ -475,12 +486,12 @@ def _lines(case, result, item, units: Units, name: str, other=None):
     angles = " and ".join(units.vector(each, units.angles)
                           for each in sorted(pair, key=lambda angles: sum(map(abs, angles))))
     word = item.verdict if item.linear != "degenerate" else f"{item.verdict}, degenerate"
-    yield row(name, f"{word}: yaw, pitch, roll {angles}")
+    yield (name, f"{word}: yaw, pitch, roll {angles}")
     if (grows := grows_in(item)) is not None:
-        yield row("", f"a disturbance grows e-fold in {units.time(grows, SHORT)}")
+        yield ("", f"a disturbance grows e-fold in {units.time(grows, SHORT)}")
         return
     _, normal, vertical = map(vector, _frame(case, item))
-    yield row("", f"orbit normal {normal}, up {'+-' if other else ''}{vertical} in the body")
+    yield ("", f"orbit normal {normal}, up {'+-' if other else ''}{vertical} in the body")
     if item.frequencies:
-        yield row("", f"librations {units.vector(item.frequencies, units.rates)[1:].replace(')', '')}, "
+        yield ("", f"librations {units.vector(item.frequencies, units.rates)[1:].replace(')', '')}, "
                       f"{', '.join(number(f / result.rate, DIGITS) for f in item.frequencies)} per orbit")

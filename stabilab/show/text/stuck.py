@@ -15,8 +15,7 @@ from ..data import Endless
 from ..units import DIGITS, SHORT, Units, bracket, number, vector
 from .classification import what_changes
 from .headline import REST
-from .motion import in_file
-from .motion import row as entry
+from .motion import Row, in_columns, in_file
 from .questions import reached, tilt_dict
 from .scene import counted
 
@@ -366,19 +365,23 @@ def _latest(item) -> dict | None:
 
 def burn_text(case, result, units: Units) -> str:
     """The answer first, then what is left, the switches and why."""
-    lines = [f"{case.name}: {burn_headline(result, units)}"]
-    if result.latest is not None:
-        lines += _of_latest(result, units)
-    lines += _of_closed(case, result, result.closed, units)
+    return "\n".join([f"{case.name}: {burn_headline(result, units)}",
+                      *in_columns(burn_rows(case, result, units))])
+
+
+def burn_rows(case, result, units: Units) -> list[str | Row]:
+    """What stands below the answer: rows, and a sentence without a name."""
+    rows: list[str | Row] = [] if result.latest is None else [*_of_latest(result, units)]
+    rows += _of_closed(case, result, result.closed, units)
     for switch in result.switches[:SHOWN]:
         levels = switch.levels or (1.0,) * len(switch.firing)
         firing = ", ".join(name if level == 1 else f"{name} at {number(100 * level)} %"
                            for name, level in zip(switch.firing, levels)) or "none"
-        lines.append(entry(units.moment(switch.time), f"firing: {firing}; rates "
-                                                 f"{units.vector(_seen(case, switch.rates), units.rates)}"))
+        rows.append((units.moment(switch.time), f"firing: {firing}; rates "
+                                                f"{units.vector(_seen(case, switch.rates), units.rates)}"))
     if len(result.switches) > SHOWN:
-        lines.append(entry("", f"and {len(result.switches) - SHOWN} more switches, in --json"))
-    return "\n".join([*lines, f"why: {units.said(result.closed.motion.reason)}"])
+        rows.append(("", f"and {len(result.switches) - SHOWN} more switches, in --json"))
+    return [*rows, f"why: {units.said(result.closed.motion.reason)}"]
 
 
 def burn_motion(result):
@@ -386,14 +389,21 @@ def burn_motion(result):
     return replace(result.closed.motion, caveats=result.caveats)
 
 
+def burn_two_lines(result, units: Units) -> tuple[str, str]:
+    """(what pages and cards show large, the rest of the headline) of a burn without a latest closing;
+    the time at which it passes the limit of its case stands before its largest rate."""
+    item, limit = result.closed, limiting.reached(result.caveats, units)
+    closed = f"CLOSED at {units.moment(item.time)}, then {item.motion.fate.word.upper()}"
+    after = ("largest rate not known" if item.largest_rate is None
+             else f"never above {units.rate(item.largest_rate, side=1)}")
+    return (f"{closed}; {limit}", after) if limit else (f"{closed}, {after}", "")
+
+
 def burn_headline(result, units: Units) -> str:
-    """The answer of a burn in one line, with the time at which it passes the limit of its case."""
-    item, latest = result.closed, result.latest
+    """The answer of a burn in one line."""
+    latest = result.latest
     if latest is None:
-        after = ("largest rate not known" if item.largest_rate is None
-                 else f"never above {units.rate(item.largest_rate, side=1)}")
-        closed = f"CLOSED at {units.moment(item.time)}, then {item.motion.fate.word.upper()}, {after}"
-        return "; ".join(filter(None, (closed, limiting.reached(result.caveats, units))))
+        return "; ".join(filter(None, burn_two_lines(result, units)))
     aim = f"|ω| below {units.rate(latest.limit)}"
     over = ("" if latest.stated is None else
             f", {units.said(latest.looked, SHORT)}: the least of {latest.forces} "
@@ -415,16 +425,16 @@ def _of_latest(result, units: Units):
     latest, early = result.latest, result.closed_latest
     if (declared := latest.stated) is not None:
         resolved = ("never too late" if math.isinf(declared.low) else f"close by {units.time(declared.low)}")
-        yield entry("forces as stated", f"{resolved} ({declared.level})")
+        yield ("forces as stated", f"{resolved} ({declared.level})")
     if early is not None:
-        yield entry("closed then", f"{_turning(early, units)}; largest rate before "
+        yield ("closed then", f"{_turning(early, units)}; largest rate before "
                                    f"{_rate(early.largest_before, units)}")
     if latest.surely is not None:
         early_enough, late = latest.surely
-        yield entry("bounded by", f"early enough up to {units.time(early_enough, side=-1)}"
+        yield ("bounded by", f"early enough up to {units.time(early_enough, side=-1)}"
                     + (f", too late from {units.time(late, side=1)} on" if math.isfinite(late) else ""))
     for begin, end in latest.again:
-        yield entry("below it again", f"closed between {units.time(begin, side=1)} and "
+        yield ("below it again", f"closed between {units.time(begin, side=1)} and "
                                       f"{units.time(end, side=-1)} "
                                       "(seen at 2000 times, no proof)")
 
@@ -444,19 +454,19 @@ def _turning(item, units: Units) -> str:
 
 
 def _of_closed(case, result, item, units: Units):
-    yield entry("last closing", units.time(item.time))
-    yield entry("rates then", f"{units.vector(_seen(case, item.rates), units.rates)}, known to "
+    yield ("last closing", units.time(item.time))
+    yield ("rates then", f"{units.vector(_seen(case, item.rates), units.rates)}, known to "
                             f"{units.rate(item.error, 2, 1)}")
-    yield entry("angular momentum", f"{number(math.hypot(*item.momentum), DIGITS)} N m s, "
+    yield ("angular momentum", f"{number(math.hypot(*item.momentum), DIGITS)} N m s, "
                                   f"{vector(_seen(case, item.momentum))}")
-    yield entry("energy", units.energy(item.energy))
-    yield entry("largest rate before", _rate(item.largest_before, units))
-    yield entry("after it", _turning(item, units))
+    yield ("energy", units.energy(item.energy))
+    yield ("largest rate before", _rate(item.largest_before, units))
+    yield ("after it", _turning(item, units))
     for name, fired, used in zip(result.thrusters, item.fired, item.used):
         if fired is None:
             continue
         mass = "" if used is None else f", {number(used, DIGITS)} kg of propellant"
-        yield entry(name, f"fired {units.time(fired)}{mass}")
+        yield (name, f"fired {units.time(fired)}{mass}")
 
 
 def _seen(case, along):
