@@ -620,5 +620,6 @@ def test_a_reason_names_only_what_acts_in_the_scene():
         assert why("state", name).startswith(f"no approximate theory comes with {acting}: "), name
     assert why("phase", "major-axis-100").endswith(": the gyrostatic moment has a component along the torque")
     assert why("phase", "off-axis-one").endswith(": the torque is off the principal axes")
+    assert why("sphere", "off-axis-one").endswith("on which the motion stays: the torque is off the principal axes")
     scene = stabilab.Scene(stabilab.Body((3, 2, 1)), stabilab.Gyrostat((1, 2, 3)))
     assert which.why_not("phase", subject.subject(scene, (1, 2, 3))).endswith("components along all three axes")

@@ -354,9 +354,9 @@ def _sphere(item: Subject) -> str:
         return f"with {_beyond(item)} no surface is known on which the motion stays"
     if free(item) and item.physical:
         return _far(item)
-    return (
-        "no surface is known on which the motion stays (torque off the principal axes, or a wheel along it)"
-        if reduce(item.twin) is None else _far(item))
+    if reduce(item.twin) is None:
+        return f"no surface is known on which the motion stays: {_unreduced(item)}"
+    return _far(item)
 
 
 def certain_from(item: Subject) -> float:

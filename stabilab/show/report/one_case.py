@@ -285,10 +285,10 @@ def _grouped(rows: list[str | Row]) -> list[dict[str, Any]]:
     groups: list[dict[str, Any]] = []
     for item in rows:
         if isinstance(item, str):
-            groups.append({"text": printed(item.strip())})
+            groups.append({"rows": [], "text": printed(item.strip())})
         else:
-            if not groups or "rows" not in groups[-1]:
-                groups.append({"rows": []})
+            if not groups or groups[-1]["text"]:
+                groups.append({"rows": [], "text": ""})
             groups[-1]["rows"].append(tuple(map(printed, item)))
     return groups
 
