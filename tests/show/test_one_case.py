@@ -197,7 +197,7 @@ def test_pieces_of_branches_are_told_by_the_rate_about_the_vertical_in_the_unit_
     assert float(ends[0].replace("−", "-")) == pytest.approx(-math.degrees(math.hypot(*rates)), rel=1e-3)
     assert any(row["where"].endswith(" to −1313.13 deg/s") for row in told["rows"])  # -22.9184 rad/s
     assert told["curves"] == [("branch 1 to branch 10", "ω = Ω γ, ((Ω² − N) D γ + Ω Λ + s) × γ = 0",
-                               ["γᵢ = −bᵢ/(Sᵢ − μ)"])]
+                               ["γᵢ = (Ω Λᵢ + sᵢ)/(μ − (Ω² − N) Dᵢ), μ by |γ| = 1"])]
 
 
 @pytest.mark.slow
