@@ -135,7 +135,7 @@ def _readable(ax: Axes, height: float, width: float) -> None:
             if across > HALF and right > 0 and text.get_ha() == "left":  # it would widen the picture
                 text.set(ha="right")
                 text.xyann = -right, up
-    size = min(ax.title.get_fontsize(), HEADING)
+    size = min(float(ax.title.get_fontsize()), HEADING)
     ax.title.set_fontsize(size)
     ax.title.set_text("\n".join(style.clauses(line, width, HEADING if width == WIDTH else size)
                                 for line in ax.get_title().split("\n")))

@@ -137,7 +137,7 @@ def write(result: Diagram | Plane, out: str | Path, size: tuple[float, float] | 
 
 def drawn(result: Diagram | Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
     """The figure."""
-    figure, rest = (_line if isinstance(result, Diagram) else _plane)(result, size, plt)  # type: ignore[operator]
+    figure, rest = _line(result, size, plt) if isinstance(result, Diagram) else _plane(result, size, plt)
     handles, text = figure.axes[0].get_legend_handles_labels()
     retained = dict(zip(text, handles))
     case = result.family.case

@@ -213,7 +213,7 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
 
 
 def scattered(item: Subject, ax: Axes, scale: Measures, neighbours: int | None = None,
-              passages: int | None = None, others: Sequence[Any] = ()) -> tuple[list[Any], list[str]]:
+              passages: int | None = None, others: Any = ()) -> tuple[list[Any], list[str]]:
     """Draw the section of a motion that does not repeat, or of several; the rows of its legend, and lines on
     the plane, the passages and what they go round. others: states beside its own; the rest as of `section`.
     """
