@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -140,9 +141,17 @@ def _lowering(shape: Shape, which: int, step: int) -> tuple[Shape, np.ndarray, n
     return Shape(shape.keys[chosen] + step), chosen, powers[chosen]
 
 
-def _over_apart(shape: Shape, step: int) -> tuple[Shape, np.ndarray]:
-    """(exponents times a monomial, j - k)."""
-    return Shape(shape.keys + step), shape.apart
+def _derivative(shape: Shape, *parts: Shape) -> tuple[Shape, np.ndarray, np.ndarray, np.ndarray]:
+    """(exponents; which term; which of what stands for the four exponents; the exponent) of the products of a
+    `_Derivative`."""
+    columns, begin = [], 0
+    for powers, rate in zip(shape.powers, parts):
+        chosen, n = np.flatnonzero(powers), len(rate.keys)
+        columns.append((np.add.outer(shape.keys[chosen], rate.keys).ravel(), chosen.repeat(n),
+                        np.tile(begin + np.arange(n), chosen.size), powers[chosen].repeat(n)))
+        begin += n
+    keys, term, part, power = map(np.concatenate, zip(*columns))
+    return Shape(keys), term, part, power.astype(float)
 
 
 @dataclass(slots=True, eq=False)  # thousands are made for each scene
@@ -167,11 +176,6 @@ class Terms:
     def times(self, factor: complex | np.ndarray) -> Terms:
         """Each coefficient times a number or an array of numbers."""
         return Terms(self.shape, self.c * factor, self.m * np.abs(factor))
-
-    def over_apart(self, key: int) -> Terms:
-        """Times one monomial, each coefficient over j - k."""
-        shape, divisors = worked_out(_over_apart, self.shape, key)
-        return Terms(shape, self.c / divisors, self.m / np.abs(divisors))
 
     def lowered(self, which: int, key: int, factor: float = 1) -> Terms:
         """Times one of the exponents (0 to 3: j, k, a, b), a factor and a monomial; without those where it is
@@ -230,6 +234,21 @@ def sizes(terms: Terms) -> np.ndarray:
     return np.abs(terms.c) + ROUNDING * terms.m
 
 
+class _Derivative:
+    """A sum over the four exponents of a monomial, each times one of these sums of terms times the monomial.
+    """
+
+    def __init__(self, *parts: Terms):
+        self.shapes = tuple(part.shape for part in parts)
+        self.c, self.m = (np.concatenate(arrays) for arrays in zip(*((part.c, part.m) for part in parts)))
+
+    def of(self, terms: Terms) -> Terms:
+        """Of a sum of monomials; like keys not yet added up."""
+        shape, term, part, power = worked_out(_derivative, terms.shape, *self.shapes)
+        return Terms(shape, terms.c[term] * (power * self.c[part]),
+                     terms.m[term] * (np.abs(power) * self.m[part]))
+
+
 @dataclass(frozen=True)
 class Algebra:
     """What the time derivative of a form is made of.
@@ -247,26 +266,28 @@ class Algebra:
     drift: Terms
     weights: tuple = (1, 1)
 
+    @cached_property
+    def _motion(self) -> tuple[tuple[_Derivative, Terms | None], ...]:
+        """Derivatives whose sum is d/dt, but for turning, each with what it is multiplied with."""
+        def along(zeta: Terms, x: Terms) -> _Derivative:
+            falls = (x.times(fall).moved(packed(0, 0, *step)) if fall else terms_of({})
+                     for step, fall in zip(((4, 0), (0, 4)), self.fall))
+            return _Derivative(zeta.moved(-_J), zeta.conjugate().moved(-_K), *falls)
+        if not len(self.carried.c):
+            return (along(self.drift, self.x_rate), None),
+        drifting = ((along(self.drift, terms_of({})), None),) if len(self.drift.c) else ()
+        return (along(self.carried, terms_of({(0, 0, 0, 0): 1.0})), self.x_rate), *drifting
+
     def rest_of_rate(self, terms: Terms) -> list[Terms]:
-        """The rate of a quantity apart from what turning makes of it, as sums that are not yet one."""
-        moved = product(gathered(*self.slope(terms), *_along(terms, self.carried)), self.x_rate)
-        return [moved, *_along(terms, self.drift)]
+        """The rate of a quantity apart from what turning makes of it, as sums that are not yet one, like keys
+        not yet added up."""
+        return [derivative.of(terms) if factor is None else product(gathered(derivative.of(terms)), factor)
+                for derivative, factor in self._motion]
 
     def slope(self, terms: Terms) -> list[Terms]:
         """d/dx of terms at constant zeta, as sums that are not yet one."""
         return [terms.lowered(which, packed(0, 0, *step), fall)
                 for step, fall, which in (((4, 0), self.fall[0], 2), ((0, 4), self.fall[1], 3)) if fall]
-
-    def removed(self, terms: Terms) -> Terms:
-        """What is added to a quantity to take oscillating terms out of its rate."""
-        return terms.times(self.lift).over_apart(-packed(0, 0, *self.turn))
-
-
-def _along(terms: Terms, rate: Terms) -> list[Terms]:
-    """The derivative of terms along zeta' = rate."""
-    if not len(rate.keys):
-        return []
-    return [product(terms.lowered(0, -_J), rate), product(terms.lowered(1, -_K), rate.conjugate())]
 
 
 @dataclass(frozen=True)
@@ -286,8 +307,14 @@ def _next(shape: Shape, weights: Sequence[int], order: int) -> np.ndarray:
     return oscillating & (levels == levels[oscillating].min(initial=4 * order))
 
 
-def _but_next(shape: Shape, weights: Sequence[int], order: int) -> np.ndarray:
-    return ~_next(shape, weights, order)
+def _removal(shape: Shape, weights: Sequence[int], order: int, step: int
+             ) -> tuple[Shape, np.ndarray, np.ndarray, Shape, np.ndarray]:
+    """(exponents of what takes the next oscillating terms out of a rate, which terms these are, their j - k;
+    exponents of the others, which these are)."""
+    rows = _next(shape, weights, order)
+    chosen, others = np.flatnonzero(rows), np.flatnonzero(~rows)
+    return (Shape(shape.keys[chosen] + step), chosen, shape.apart[chosen], Shape(shape.keys[others]),
+            others)
 
 
 class Elimination:
@@ -303,12 +330,15 @@ class Elimination:
         """Everything oscillating up to x^-order."""
         reached = self.reached
         _, parts, rate = reached if reached[0] <= order else self.begun
+        algebra, step = self.algebra, -packed(0, 0, *self.algebra.turn)
         while True:
-            now = rate.part(_next, self.algebra.weights, order)
-            if not len(now.c):
+            shape, chosen, apart, left, others = worked_out(_removal, rate.shape, algebra.weights, order,
+                                                            step)
+            if not len(chosen):
                 break
-            parts = *parts, self.algebra.removed(now)
-            rate = gathered(rate.part(_but_next, self.algebra.weights, order),
-                            halves=self.algebra.rest_of_rate(parts[-1]))
+            factors = algebra.lift / apart
+            added = Terms(shape, rate.c[chosen] * factors, rate.m[chosen] * np.abs(factors))
+            parts = *parts, added
+            rate = gathered(Terms(left, rate.c[others], rate.m[others]), halves=algebra.rest_of_rate(added))
         self.reached = order, parts, rate
         return Corrected(gathered(*parts).whole(), rate.whole())
