@@ -105,20 +105,23 @@ def _part(shape: Shape, rows: Callable[..., np.ndarray], *options: Hashable) -> 
     return Shape(shape.keys[chosen]), chosen
 
 
-def _gathered(shapes: Sequence[Shape], halves: Sequence[Shape]
-              ) -> tuple[Shape, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(exponents of the sum of all, no two alike, rising; order of the terms; where each begins in it; which
-    of them stand for the conjugates of theirs; which for twice their real part)."""
+def _gathered(shapes: Sequence[Shape], halves: Sequence[Shape]) -> tuple[Shape, *tuple[np.ndarray, ...]]:
+    """(exponents of the sum of all, no two alike, rising; order of the terms; where each begins in it; to
+    which each belongs; by what the real and the imaginary part of each are multiplied: 2 and 0 of one for
+    twice its real part, 1 and -1 of one for its conjugate)."""
     keys = np.concatenate([shape.keys for shape in (*shapes, *halves)])
     begin, apart = sum(len(shape.keys) for shape in shapes), Shape(keys).apart
-    below, equal = begin + np.flatnonzero(apart[begin:] < 0), begin + np.flatnonzero(apart[begin:] == 0)
-    keys[below] -= apart[below] * (_J - _K)
+    real, imaginary = np.ones((2, len(keys)))
+    real[begin:] += apart[begin:] == 0
+    imaginary[begin:] = np.sign(apart[begin:])
+    keys -= np.minimum(apart, 0) * (np.arange(len(keys)) >= begin) * (_J - _K)
     order = keys.argsort(kind="stable")
     keys = keys[order]
     new = np.ones(len(keys), bool)
     np.not_equal(keys[1:], keys[:-1], out=new[1:])
-    first = new.nonzero()[0]
-    return Shape(keys[first]), order, first, below, equal
+    which = np.empty_like(order)
+    which[order] = new.cumsum() - 1
+    return Shape(keys[new]), order, new.nonzero()[0], which, real, imaginary
 
 
 def _product(shape: Shape, other: Shape) -> Shape:
@@ -209,18 +212,17 @@ def terms_of(table: dict) -> Terms:
 
 def gathered(*parts: Terms, halves: Sequence[Terms] = ()) -> Terms:
     """The sum of sums of terms; halves: others, added with their conjugates, as half of a real sum."""
-    parts, halves = (tuple(part for part in some if len(part.c)) for some in (parts, halves))
-    full = parts + halves
+    full = *parts, *halves
     if not full:
         return terms_of({})
-    shape, order, first, below, equal = worked_out(
-        _gathered, tuple(part.shape for part in parts), tuple(part.shape for part in halves))
+    shape, order, first, which, real, imaginary = worked_out(
+        _gathered, tuple([part.shape for part in parts]), tuple([part.shape for part in halves]))
     c, m = np.concatenate([part.c for part in full]), np.concatenate([part.m for part in full])
     if halves:
-        c[below] = c[below].conjugate()
-        c[equal] += c[equal].conjugate()
-        m[equal] += m[equal]
-    return Terms(shape, np.add.reduceat(c[order], first), np.add.reduceat(m[order], first))
+        c.real *= real
+        c.imag *= imaginary
+        m *= real
+    return Terms(shape, np.add.reduceat(c[order], first), np.bincount(which, m, len(first)))
 
 
 def product(item: Terms, other: Terms) -> Terms:
