@@ -32,6 +32,7 @@ only, so that small circles that drift far stay on it."""
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import lru_cache
 from math import factorial
@@ -79,8 +80,9 @@ class Runs:
         self.met = np.repeat([[0.0], [np.inf]], len(states), axis=1)  # sizes since the last look
 
     def _call(self, name: str, *arguments):
-        with np.errstate(all="ignore"):
-            ADVANCE.functions(self.fast)[name](*arguments)
+        function = ADVANCE.functions(self.fast)[name]
+        with nullcontext() if self.fast else np.errstate(all="ignore"):  # compiled code warns of nothing
+            function(*arguments)
 
     def _run(self, states: np.ndarray, *arguments):
         """`steps.run`."""
@@ -98,7 +100,7 @@ class Runs:
         self.steps_done += steps
         self.counted += steps * len(rows)
         twins, m = self.twins, len(rows)
-        counts = np.clip(budget - self.steps[rows], 1, steps)
+        counts = np.minimum(np.maximum(budget - self.steps[rows], 1), steps)
         (ends, changes), (spans, reached), met = np.empty((2, m, 3)), np.empty((2, m)), np.empty((2, m))
         self._call("begin", self.coefficients, rows, t_max, pause, self.states, self.times, twins.ahead, ends,
                    changes, spans, *np.empty((2, 3)))
