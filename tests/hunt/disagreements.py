@@ -143,7 +143,7 @@ def methods(scene, problem, state):
         times = np.array([3.0, 20.0]) / speed
         here, effect = _and_one_unit_away(scene, problem, state, times)
     except InputError:
-        return NO_QUESTION  # no such form; or a tie or a flat well one unit away: no measure of the condition
+        return NO_QUESTION  # no such form, no digit, or a tie or a flat well one unit away: no measure of condition
     if not max(_speed(problem, x) for x in here.tolist()) * times[-1] < MOST_TURNS:
         return NO_QUESTION  # the series would take minutes
     run = stabilab.trajectory(scene, state, times, laws=False)
@@ -160,8 +160,10 @@ def methods(scene, problem, state):
 def _and_one_unit_away(scene, problem, state, times):
     """(states by quadrature (n, 3), what one unit in the last place of the start and of the period does there
     (n,))."""
-    here, *beside = (stabilab.trajectory(scene, s, times, "reduced", laws=False).states
-                     for s in _one_unit_away(state))
+    runs = [stabilab.trajectory(scene, s, times, "reduced", laws=False) for s in _one_unit_away(state)]
+    if any(run.status != "reached" for run in runs):
+        raise InputError("so late that no digit of the state is known")
+    here, *beside = (run.states for run in runs)
     period = float(stabilab.period(scene, np.array(state)))
     rates = np.array([[abs(float(r)) for r in problem.rate(x)] for x in here.tolist()])
     effect = sum(np.abs(there - here).max(axis=1) for there in beside) + EPS * np.abs(here).max(axis=1)
