@@ -80,7 +80,7 @@ if TYPE_CHECKING:
 BARE: dict[str, object] = {"allocating": False,
                            "entries": {"begin", "run", "end", "measure", "over", "decide"}}
 DECIDE = Kernel(kernel, "decide", 3.0, options=BARE)
-ADVANCE = Kernel(steps, "run", 4.0, inlined={"power_of_two", "logarithm", "two_to", "at_end"},
+ADVANCE = Kernel(steps, "run", 4.0, inlined={"power_of_two", "logarithm", "two_to", "ended"},
                  variant=f"{steps.SIDE_BY_SIDE}_", options=BARE | {"LANES": steps.SIDE_BY_SIDE})
 
 

@@ -101,10 +101,10 @@ class Runs:
         self.counted += steps * len(rows)
         twins, m = self.twins, len(rows)
         counts = np.minimum(np.maximum(budget - self.steps[rows], 1), steps)
-        (ends, changes), (spans, reached), met = np.empty((2, m, 3)), np.empty((2, m)), np.empty((2, m))
+        (ends, changes), (spans, left, reached), met = np.empty((2, m, 3)), np.empty((3, m)), np.empty((2, m))
         self._call("begin", self.coefficients, rows, t_max, pause, self.states, self.times, twins.ahead, ends,
                    changes, spans, *np.empty((2, 3)))
-        self._run(ends, changes, spans, counts, reached, met)
+        self._run(ends, changes, spans, counts.copy(), left, reached, met)
         self._call("end", self.coefficients, rows, counts, t_max, pause, STEP_ERROR, ends, changes, spans,
                    reached, met, self.states, self.times, twins.growth, twins.most, twins.ahead, twins.blur,
                    self.met, self.steps, self.rounded, *np.empty((3, 3)))
@@ -112,9 +112,10 @@ class Runs:
     def carried(self, states: np.ndarray, spans: np.ndarray, most: int):
         """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the
         most steps."""
-        out, times = np.array(states, order="C"), np.empty_like(spans)
+        out, (left, times) = np.array(states, order="C"), np.empty((2, len(spans)))
         self.counted += min(most, REVOLUTION) * len(states)
-        self._run(out, np.zeros_like(out), spans, np.full(len(spans), most), times, np.empty((2, len(spans))))
+        self._run(out, np.zeros_like(out), spans, np.full(len(spans), most), left, times,
+                  np.empty((2, len(spans))))
         return out, times
 
     def measure(self, rows, out):

@@ -41,10 +41,13 @@ STILL = 2.0**-8  # rates per size (or per natural unit) below which no delay is 
 LOST = 2.0**-30  # what lies across a motion is taken to be no less, relative to the change
 # bits of a double's exponent and fraction, and of 1.0
 EXPONENT, FRACTION, ONE = 0x7FF0000000000000, 0x000FFFFFFFFFFFFF, 0x3FF0000000000000
+# a motion leaves its lane to others that wait after such a part of the steps, but not before so many
+PART, AT_LEAST = 0.25, 16
 # Rows of the memory of a run, LANES numbers each: state, change, what is left of the span and what has
-# passed, the sign of both, the greatest, the least and the last |omega|^2, the steps due. Behind them stand
-# the coefficients of the equations, twelve numbers for all lanes.
-STATE, CHANGE, LEFT, PASSED, SIGN, LARGEST, SMALLEST, NOW, DUE, EQUATIONS = 0, 3, 6, 7, 8, 9, 10, 11, 12, 13
+# passed, the sign of both, the greatest, the least and the last |omega|^2, the steps due, how many of these
+# are left to later. Behind them stand the coefficients of the equations, twelve numbers for all lanes.
+STATE, CHANGE, LEFT, PASSED, SIGN, LARGEST, SMALLEST, NOW, DUE, LATER, EQUATIONS = (
+    0, 3, 6, 7, 8, 9, 10, 11, 12, 13, 14)
 
 
 def power_of_two(size: float):
@@ -130,54 +133,85 @@ def _made(text: str, name: str) -> Callable[..., None]:
 step_ahead = _made(written_out(), "step_ahead")  # one step of every lane
 
 
-def at_end(memory: np.ndarray, lane: int):
+def ended(memory: np.ndarray, lane: int):
     """Whether a lane's motion is at the end of its span, of its steps, or beyond doubles."""
     return not (memory[LEFT * LANES + lane] > 0.0 and memory[NOW * LANES + lane] < math.inf
                 and memory[DUE * LANES + lane] > 0.0)
 
 
-def run(coefficients: np.ndarray, states: np.ndarray, changes: np.ndarray, spans: np.ndarray,
-        steps: np.ndarray, reached: np.ndarray, met: np.ndarray, memory: np.ndarray, held: np.ndarray):
-    """Up to so many steps (n,), over spans (n,) of time (back where negative), of motions from states (n, 3)
-    and of changes (n, 3) of them, all in their place; the times that have passed to reached (n,), the
-    greatest and the least |omega|^2 that was met to met (2, n). memory: its rows, see above; held (LANES,):
-    the row whose motion a lane has (-1: none), both to work in."""
+def load(memory: np.ndarray, lane: int, row: int, states: np.ndarray, changes: np.ndarray, spans: np.ndarray,
+         left: np.ndarray, due: np.ndarray, reached: np.ndarray, met: np.ndarray):
+    """A row of motions into a lane, for a part of its steps where others wait."""
+    for i in range(3):
+        memory[(STATE + i) * LANES + lane] = states[row, i]
+        memory[(CHANGE + i) * LANES + lane] = changes[row, i]
+    memory[LEFT * LANES + lane], memory[PASSED * LANES + lane] = left[row], reached[row]
+    memory[SIGN * LANES + lane] = math.copysign(1.0, spans[row])
+    memory[LARGEST * LANES + lane], memory[SMALLEST * LANES + lane] = met[0, row], met[1, row]
+    memory[NOW * LANES + lane], memory[DUE * LANES + lane] = 0.0, float(due[row])
+
+
+def unload(memory: np.ndarray, lane: int, row: int, states: np.ndarray, changes: np.ndarray,
+           left: np.ndarray, due: np.ndarray, reached: np.ndarray, met: np.ndarray):
+    """What has become of it so far."""
+    for i in range(3):
+        states[row, i] = memory[(STATE + i) * LANES + lane]
+        changes[row, i] = memory[(CHANGE + i) * LANES + lane]
+    left[row], reached[row] = memory[LEFT * LANES + lane], memory[PASSED * LANES + lane]
+    met[0, row], met[1, row] = memory[LARGEST * LANES + lane], memory[SMALLEST * LANES + lane]
+    due[row] = int(memory[DUE * LANES + lane])
+
+
+def waiting(due: np.ndarray, row: int):
+    """The next row after one, from the first again, that has steps due and is in no lane; -1 for none."""
+    for _ in range(due.size):
+        row = row + 1 if row + 1 < due.size else 0
+        if due[row] > 0:
+            return row
+    return -1
+
+
+def run(coefficients: np.ndarray, states: np.ndarray, changes: np.ndarray, spans: np.ndarray, due: np.ndarray,
+        left: np.ndarray, reached: np.ndarray, met: np.ndarray, memory: np.ndarray, held: np.ndarray):
+    """Up to so many steps due (n,), over spans (n,) of time (back where negative), of motions from states (n,
+    3) and of changes (n, 3) of them, all in their place, with what is left of the spans; the times that have
+    passed to reached (n,), the greatest and the least |omega|^2 that was met to met (2, n). memory: its rows,
+    see above; held (LANES,): the row whose motion a lane has (-1: none), both to work in.
+
+    Motions take turns, so that all lanes have one to the end: ten of them would fill eight lanes once and two
+    lanes a second time."""
     for n in range(4):
         for i in range(3):
             memory[EQUATIONS * LANES + 3 * n + i] = coefficients[n, i]
     for lane in range(LANES):
         held[lane], memory[LEFT * LANES + lane] = -1, 0.0
-    following, busy = 0, 0
+    for row in range(spans.size):
+        left[row], reached[row] = abs(spans[row]), 0.0
+        met[0, row] = met[1, row] = (states[row, 0] * states[row, 0] + states[row, 1] * states[row, 1]
+                                     + states[row, 2] * states[row, 2])
+    largest = 0
+    for row in range(spans.size):
+        largest = max(largest, due[row])
+    part = max(PART * largest, AT_LEAST) if spans.size > LANES > 1 else math.inf
+    following, busy = -1, spans.size
     while True:
         for lane in range(LANES):
-            if not at_end(memory, lane):
+            if not ended(memory, lane) and memory[DUE * LANES + lane] > memory[LATER * LANES + lane]:
                 continue
             row = held[lane]
             if row >= 0:
-                reached[row] = (spans[row] if memory[LEFT * LANES + lane] <= 0.0
-                                else memory[SIGN * LANES + lane] * memory[PASSED * LANES + lane])
-                met[0, row] = memory[LARGEST * LANES + lane]
-                met[1, row] = memory[SMALLEST * LANES + lane]
-                for i in range(3):
-                    states[row, i] = memory[(STATE + i) * LANES + lane]
-                    changes[row, i] = memory[(CHANGE + i) * LANES + lane]
-                busy -= 1
-            memory[PASSED * LANES + lane] = memory[NOW * LANES + lane] = 0.0
-            if following < spans.size:
-                row, following, busy = following, following + 1, busy + 1
-                held[lane] = row
-                size = 0.0
-                for i in range(3):
-                    memory[(STATE + i) * LANES + lane] = states[row, i]
-                    memory[(CHANGE + i) * LANES + lane] = changes[row, i]
-                    size += states[row, i] * states[row, i]
-                memory[LARGEST * LANES + lane] = memory[SMALLEST * LANES + lane] = size
-                memory[LEFT * LANES + lane], memory[DUE * LANES + lane] = abs(spans[row]), float(steps[row])
-                memory[SIGN * LANES + lane] = math.copysign(1.0, spans[row])
+                unload(memory, lane, row, states, changes, left, due, reached, met)
+                if ended(memory, lane):
+                    reached[row] = spans[row] if left[row] <= 0.0 else math.copysign(reached[row], spans[row])
+                    due[row], busy = 0, busy - 1
+            row = held[lane] = waiting(due, following)
+            if row >= 0:
+                load(memory, lane, row, states, changes, spans, left, due, reached, met)
+                memory[LATER * LANES + lane] = max(due[row] - part, 0.0)
+                following, due[row] = row, 0
             else:  # it stands still, and is never at its end
-                held[lane] = -1
-                for row in range(EQUATIONS):
-                    memory[row * LANES + lane] = 0.0
+                for n in range(EQUATIONS):
+                    memory[n * LANES + lane] = 0.0
                 memory[LEFT * LANES + lane] = memory[DUE * LANES + lane] = math.inf
         if busy == 0:
             break

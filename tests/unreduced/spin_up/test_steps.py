@@ -46,17 +46,19 @@ def test_steps_beside_a_saddle_stay_short_though_the_state_hardly_leaves_it(smal
 
 
 @numba
-def test_lanes_know_nothing_of_each_other():
-    """Bits of each of many motions, of different lengths, one of them beyond doubles: those of the motion
-    alone, by the loops as they are written."""
+@pytest.mark.parametrize("steps", [12, 90])
+def test_lanes_know_nothing_of_each_other(steps):
+    """Bits of each of many motions, of different lengths, one of them beyond doubles, which take turns in the
+    lanes where they have more than a few steps to go: those of the motion alone, by the text as it is written.
+    """
     starts = states(7, 70)
     starts[5] = 1e200, -1e200, 1e200
     spans = np.random.default_rng(8).uniform(-1, 1, 70)
     many, one = Runs(EXAMPLE, starts, True), Runs(EXAMPLE, starts)
-    out, times = many.carried(starts, spans, 12)
+    out, times = many.carried(starts, spans, steps)
     assert (times == spans).any() and (times != spans).any() and not np.isfinite(out[5]).all()
     for n in (*range(4, 8), 37, 38, 69):
-        alone, time = one.carried(starts[n:n + 1], spans[n:n + 1], 12)
+        alone, time = one.carried(starts[n:n + 1], spans[n:n + 1], steps)
         assert np.array_equal(alone[0], out[n], equal_nan=True) and time[0] == times[n]
 
 
