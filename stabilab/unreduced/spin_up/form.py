@@ -114,18 +114,21 @@ def normal_form(D: Sequence[Fraction], wheel: Sequence[Fraction], torque: Sequen
     D1, D2, D3, s = D[i], D[j], D[k], 1 if d2 > 0 else -1
     a2, a3 = abs(d2), abs(d3)
     m2, m3 = M2 - l1 * l3 / d3, M3 + l1 * l2 / d2
+    across, apart, half = D2 * D3, a2 * a3, (a3 - a2) / 2
     return NormalForm(
-        axis, sense, order, float(D1), float(M1), math.sqrt(a2 * a3 / (D2 * D3)),
-        over_root((a3 - a2) / 2, D2 * D3 * a2 * a3), over_root(s * l1 * (a3 - a2) / 2, D2 * D3 * a2 * a3),
+        axis, sense, order, float(D1), float(M1), math.sqrt(apart / across),
+        over_root(half, across * apart), over_root(s * l1 * half, across * apart),
         complex(over_root(m2, D2 / a2), over_root(s * m3, D3 / a3)),
         complex(over_root(-l3 * a2 / a3, D2 * a2), over_root(s * l2 * a3 / a2, D3 * a3)),
-        float(s * l1 * (a2 + a3) / (2 * a2 * a3)), (float(l2 / d2), float(l3 / d3)),
+        float(s * l1 * (a2 + a3) / (2 * apart)), (float(l2 / d2), float(l3 / d3)),
         (math.sqrt(D2 * a2), s * math.sqrt(D3 * a3)), float(l2 * M2 / d2 + l3 * M3 / d3))
 
 
 def over_root(numerator: Fraction | float, square: Fraction) -> float:
-    """numerator/sqrt(square) of exact numbers: its square is exact before the root."""
-    size = math.sqrt(numerator * numerator / square)
+    """numerator/sqrt(square) of exact numbers: its square is exact before the root, and in no lowest terms,
+    which take long to find."""
+    (n, d), (p, q) = numerator.as_integer_ratio(), square.as_integer_ratio()
+    size = math.sqrt((n * n * q) / (d * d * p))
     return -size if numerator < 0 else size
 
 
