@@ -163,10 +163,11 @@ class Case(read.Case):
     def simulate(self, times: ArrayLike | None = None, state: Start | None = None, blocks: Any = None,
                  method: str | None = None, rtol: float | None = None, attitude: str | None = None, *,
                  omega: Start | None = None,
-                 frame: str = "principal") -> Simulation:
+                 frame: str = "principal", nutation: str | None = None) -> Simulation:
         """The motion at the given times: see `stabilab.simulate`."""
         from .answers.simulate import simulate
-        return simulate(self, state, times, blocks, method, rtol, attitude, omega=omega, frame=frame)
+        return simulate(self, state, times, blocks, method, rtol, attitude, omega=omega, frame=frame,
+                        nutation=nutation)
 
     @property
     def plot(self) -> Plots:
@@ -201,11 +202,15 @@ class Burning(read.Burning):
                            until=until, below=below, nutation=nutation, nutation_below=nutation_below,
                            largest=largest, workers=workers, stop=stop, closing_below=closing_below)
 
-    def simulate(self, times: ArrayLike | None = None, attitude: str | None = None) -> Simulation:
-        """The motion at the given times, over all switches: see `stabilab.simulate`; attitude: as there."""
+    def simulate(self, times: ArrayLike | None = None, attitude: str | None = None,
+                 nutation: str | None = None) -> Simulation:
+        """The motion at the given times, over all switches: see `stabilab.simulate`; attitude, nutation: as
+        there."""
+        from .answers.simulate import with_nutation
         from .answers.stuck.chain import simulate_burn
         from .case.given import time_in
-        return simulate_burn(self, time_in(self.craft.scene, times, "times"), attitude)
+        run = simulate_burn(self, time_in(self.craft.scene, times, "times"), attitude)
+        return run if nutation is None else with_nutation(self.craft, run, nutation)
 
     def when(self, rate: Amount | None = None, component: str | tuple[str, Amount] | None = None,
              energy: Amount | None = None, tilt: str | tuple[str, Amount] | None = None,

@@ -38,11 +38,13 @@ from ..physics.to_numpy import to_numpy
 from ..reasons import Moment, PerSecond, Quantity, Reason, Reasoned, Sentence, chained
 from ..representation import Answer, Compared
 from .caveats import answered
+from .motions.nutation import axis_named, nutation_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from ..case.read import Case
+    from ..numbers.vectors import Exact3
     from ..physics.law_limits import Validity
 
 
@@ -134,6 +136,7 @@ SHORT_WAY = 1.5  # rad: a step of phi or theta below half a turn by this margin 
 ROUNDS, POINTS = 12, 400_000  # of refining the times between the asked-for ones for unwrapping
 ROUNDING = 2.0**-53
 LOST = 0.1  # of a period, or of the size of a state: what is farther off has no digit
+MOVED = 2.0**-26  # of a component, by which it is moved to see what its error does to an angle
 INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by up to three radians
 
 
@@ -143,8 +146,9 @@ class Simulation(Answer, Compared, Reasoned):
 
     t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi,
     theta, continuous from the start, rad) or quaternion (x, y, z, w) or matrix (n, 3, 3), momentum (inertial,
-    kg m^2/s), velocity, position (inertial), and for averaged models amplitude, spin, phase (n,). model:
-    "exact", "linear", ...; the rest as of Trajectory. validity: of the scene's laws; what a formula assumes
+    kg m^2/s), velocity, position (inertial), nutation (n,) rad, of the axis nutation_axis where one was
+    given, and for averaged models amplitude, spin, phase (n,). model: "exact", "linear", ...; the rest as of
+    Trajectory. validity: of the scene's laws; what a formula assumes
     beyond them stands in `reason`. error: name -> size, () or (m,), below which a component is not told from
     0: what a check of the digits showed, else the tolerance of the run; none where neither is known.
     Vectors in the body are along the principal axes; frame: where these lie in the frame of the file or the
@@ -163,6 +167,7 @@ class Simulation(Answer, Compared, Reasoned):
     validity: Validity | None = None
     error: dict[str, np.ndarray] = field(default_factory=dict)
     frame: PrincipalAxes | None = field(default=None, repr=False, compare=False)
+    nutation_axis: str = ""
 
 
 def errors_of(state: Mapping[str, np.ndarray], fraction: float) -> dict[str, np.ndarray]:
@@ -175,13 +180,14 @@ def errors_of(state: Mapping[str, np.ndarray], fraction: float) -> dict[str, np.
 def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None = None,
              blocks: Mapping[str, Any] | None = None, method: str | None = None, rtol: float | None = None,
              attitude: str | None = None, *, omega: Start | None = None,
-             frame: str = "principal") -> Simulation:
+             frame: str = "principal", nutation: str | None = None) -> Simulation:
     """The exact motion of a case from its start at the given times.
 
     scene: a case in any form, or a scene; state: its start, where that is another or none: rates, all
     components of the state, or blocks by name; times: (n,) in the case's time, the two ends of its span where
     none are given; frame: of the start, as of `fate`. blocks, method, rtol, attitude: as of `simulated`,
-    blocks in place of those of the case. omega: the former name of `state`. Raises InputError as `trajectory`
+    blocks in place of those of the case. nutation: an axis, "x", "y", "z" of the file or "1", "2", "3": also
+    its angle to the angular momentum. omega: the former name of `state`. Raises InputError as `trajectory`
     does.
     """
     if omega is not None:
@@ -199,6 +205,7 @@ def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None =
     if wanted is None:
         raise InputError("times: expected times for a scene; a case without a span needs them too")
     result = simulated(case.scene, case.state, wanted, case.blocks, method, rtol, attitude)
+    result = result if nutation is None else with_nutation(case, result, nutation)
     return answered(replace(result, frame=oblique(case.frame)), case, result.validity)
 
 
@@ -259,6 +266,41 @@ def quaternion_blocks(blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequen
         return dict(blocks)
     turned = supplied or (attitude_of(vertical) if vertical else (0.0, 0.0, 0.0))
     return {**blocks, "attitude": tuple(scalar_last(quaternion(*turned)).tolist())}
+
+
+def with_nutation(case: Case, run: Simulation, axis: str, scene: Any = None) -> Simulation:
+    """The run with the part "nutation", (n,) rad, of an axis by its name, as of `axis_named`. scene: that of
+    the run, None for that of the case. Raises InputError for scaled variables, which have no body, and for
+    the averages of a model."""
+    if case.variables == "scaled" or "omega" not in run.state:
+        raise InputError("nutation: scaled variables have no body: give the motion as angular_velocity, in "
+                         "rad/s")
+    if run.model != "exact":
+        raise InputError("nutation: it is that of the exact motion, and this run is of the model "
+                         f"{run.model}")
+    scene, vector = scene or case.scene, axis_named(case, axis).along
+    angle = nutation_of(scene, run.state, vector)
+    error = _error_of_nutation(scene, run, vector, angle) if run.error else None
+    return replace(run, state=run.state | {"nutation": angle}, nutation_axis=axis,
+                   error=run.error if error is None else run.error | {"nutation": error})
+
+
+def _error_of_nutation(scene: Any, run: Simulation, axis: Exact3, angle: np.ndarray) -> np.ndarray | None:
+    """What errors of the parts of a run do to the angle, to first order, the largest over the times; None
+    where one of them has none."""
+    total = 0.0
+    for name, values in run.state.items():
+        if name in ("gamma", "quaternion", "matrix", "angles", "momentum", "velocity", "position"):
+            continue
+        if name not in run.error:
+            return None
+        for n, own in enumerate(np.broadcast_to(run.error[name], values.shape[1:]).tolist()):
+            size = float(np.abs(values[:, n]).max(initial=0.0)) or 1.0
+            moved = np.array(values)
+            moved[:, n] += MOVED * size
+            apart = np.abs(nutation_of(scene, run.state | {name: moved}, axis) - angle)
+            total += own / (MOVED * size) * float(np.nanmax(apart, initial=0.0))
+    return np.array(total if np.isfinite(total) else np.nan)
 
 
 def in_matrices(run: Simulation) -> Simulation:

@@ -35,6 +35,9 @@ def simulate(
         attitude: Annotated[bool, flag(
             "--attitude", "Add the attitude as a quaternion, and the angular momentum in space.")] = False,
         matrix: Annotated[bool, flag("--matrix", "The same with the attitude as a rotation matrix.")] = False,
+        nutation: Annotated[str | None, option("AXIS",
+            "Add the angle of a body axis to the angular momentum: x, y, z of the file or 1, 2, 3, principal "
+            "axes.")] = None,
         out: Annotated[Path | None, option("FILE.nc|.csv|.aem",
             "Write the states to a file; .aem: a CCSDS attitude ephemeris, quaternions and rates.")] = None,
         epoch: Annotated[str | None, option("DATE",
@@ -65,6 +68,9 @@ def plot(
         neighbours: Annotated[int | None, option(
             "N", "For --kind section: number of neighbouring motions; default: 6, of one that repeats 10 "
                  "closed orbits.")] = None,
+        axis: Annotated[str | None, option(
+            "AXIS", "For --kind nutation: x, y, z of the file or 1, 2, 3, principal axes; default: that of "
+                    "[motion] axis, else the one nearest to the angular momentum at the start.")] = None,
         units: UnitsOption = None, strict: Strict = False):
     """Draw a case: rates over time, phase plane, separatrix, more.
 

@@ -58,7 +58,7 @@ def surface(case, out, json, strict):
     judge(view, rows, strict)
 
 
-def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
+def plot(case, kind, out, size, dpi, until, neighbours, units, strict, axis=None):
     """Draw a case, or the map of a sweep's file."""
     if case.suffix.lower() == ".nc":
         redraw = map_files.redrawn if map_files.is_atlas(case) else picture.write
@@ -66,7 +66,7 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
         write(str(redraw(case, target, kind, to_file.inches(size), dpi, units)))
         return
     if special(case):
-        _plot_special(case, kind, out, to_file.inches(size), dpi, until, units)
+        _plot_special(case, kind, out, to_file.inches(size), dpi, until, units, axis)
         return
     loaded, drawn = load_cases([case], motion=kind != "equilibria"), []
     units_asked(loaded, units)  # says what is wrong with them
@@ -75,7 +75,7 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
         with blamed_on(item):
             end = time_asked(until, item, "until")
             drawn.append(to_file.write_all(item, endings.labelled(target, item), kind, to_file.inches(size),
-                                           dpi, units, end, neighbours))
+                                           dpi, units, end, neighbours, axis=axis))
     laws = [headline.of_case(entry) for entry in loaded]
     for item, held, paths in zip(loaded, laws, drawn):
         for line in limiting.beside(_unless_drawn(of_case(item), kind), units_of(item, units)):
@@ -92,7 +92,7 @@ def _unless_drawn(caveats, kind):
             else without(caveats, Kind.UNCERTAIN, Kind.TOLERANCE, Kind.DISTRIBUTION))
 
 
-def _plot_special(case, kind, out, size, dpi, until, units):
+def _plot_special(case, kind, out, size, dpi, until, units, axis):
     """Draw a burn, or a satellite on a circular orbit."""
     built = load_any(case)
     craft = built.craft
@@ -101,7 +101,7 @@ def _plot_special(case, kind, out, size, dpi, until, units):
     with blamed_on(craft):
         end = time_asked(until, craft, "until")
         item = subject(built, span=end)
-        paths = to_file.write_all(item, target, kind, size, dpi, units)
+        paths = to_file.write_all(item, target, kind, size, dpi, units, axis=axis)
     for line in limiting.beside(_unless_drawn(item.caveats, kind), units_of(craft, units)):
         tell(line)
     write("\n".join(map(str, paths)))

@@ -8,7 +8,7 @@ from functools import partial
 from ..answers.caveats import answered
 from ..answers.digits_asked import DEFAULT
 from ..answers.digits_run import best_reached, missed
-from ..answers.simulate import Simulation, in_matrices, with_quaternion
+from ..answers.simulate import Simulation, in_matrices, with_nutation, with_quaternion
 from ..answers.stuck.chain import simulate_burn
 from ..case.read import Case, blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError
@@ -27,7 +27,7 @@ from .writing import all_reached, write, write_each
 
 
 def simulate(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict,
-             units, epoch=None):
+             units, epoch=None, nutation=None):
     """Follow the motion of a case, of every combination where it has a [sweep]."""
     ephemeris = bool(out) and endings.ending(out) == ".aem"
     if epoch and not ephemeris:
@@ -63,6 +63,9 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
     for n, (item, run, reached) in enumerate(runs if angles else ()):
         with blamed_on(item):
             runs[n] = item, with_euler_angles(item, run, model, order), reached
+    for n, (item, run, reached) in enumerate(runs if nutation else ()):
+        with blamed_on(item):
+            runs[n] = item, with_nutation(item, run, nutation), reached
     if out:
         write_each(out, [(entry, partial(simulation.write, entry, run, epoch=moment))
                          for entry, run, _ in runs])

@@ -208,6 +208,7 @@ PARTS = BLOCKS | {part.name: part for part in (
     Block("euler", ("precession psi", "nutation theta", "rotation phi"), "rad",
           "classical Euler angles of the vertical, continuous"),
     Block("momentum", ("H1", "H2", "H3"), "kg m^2/s", "angular momentum, inertial frame"),
+    Block("nutation", ("nutation",), "rad", "angle of a body axis to the angular momentum"),
     Block("amplitude", ("amplitude",), "rad/s", "amplitude of the transverse rate"),
     Block("spin", ("spin",), "rad/s", "averaged rate about axis 3"),
     Block("phase", ("phase",), "rad", "phase of the transverse rate"))}

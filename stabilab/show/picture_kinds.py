@@ -63,6 +63,10 @@ KINDS = {
         "theory",
         Page("Analytic models beside the exact motion", "Each part of the state over time; stabilab compare "
              "tells when a model is off by 1 % and 10 %.", brief=True, titled=True)),
+    "nutation": Picture(
+        "the angle of a body axis to the angular momentum over time, with its bounds and its end; of a top "
+        "its lean", "nutation.nutation", "nutation",
+        Page("Nutation over time", "The angle of a body axis to the angular momentum.")),
     "attitude": Picture("the body as it turns, as an animation", "turning.film", "body that turns"),
     "tilt": Picture(
         "the time to the limit against the tilt of the torque", "over_time.tilt", "tilt",

@@ -18,7 +18,7 @@ PHONE = 400 - 2 * 0.8 * 16  # pixels: a telephone less the margins of a page (ma
 PAIRS = [("minor-axis-100", "phase"), ("geostationary-22n", "body"), ("minor-axis-100", "potential"),
          ("charged-body", "state"), ("minor-axis-100", "time"), ("minor-axis-100", "sphere"),
          ("minor-axis-100", "equilibria"), ("minor-axis-100", "body"), ("geostationary-22n", "time"),
-         ("geostationary-22n", "tilt"), ("geostationary-22n", "wheel"), ("liquid-sensible", "time"),
+         ("geostationary-22n", "tilt"), ("geostationary-22n", "wheel"), ("liquid-sensible", "time"), ("dual-spin-damper", "nutation"),
          ("top-fast", "state"), ("torque-free-gyrostat", "equilibria"), ("uncertain-minor-axis", "time")]
 
 

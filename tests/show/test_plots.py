@@ -303,7 +303,7 @@ KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "potential", "sphere", "sectio
 @pytest.mark.parametrize("name", KINDS)
 def test_every_kind_of_scene_knows_its_kinds_of_plot(name):
     one = subject.subject(load(name))
-    known = KINDS[name] | {"body"} | ({"attitude"} if one.physical else set())  # a body to turn
+    known = KINDS[name] | {"body"} | ({"attitude", "nutation"} if one.physical else set())  # a body to turn
     assert set(which.offered(one)) == known
     for kind in set(which.KINDS) - known:
         with pytest.raises(errors.InputError, match="this one has time"):

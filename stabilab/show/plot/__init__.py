@@ -4,6 +4,7 @@ from .body import body as body
 from .equilibria import equilibria as equilibria
 from .histogram import histogram as histogram
 from .in_space import space as space
+from .nutation import nutation as nutation
 from .over_time import state as state
 from .over_time import tilt as tilt
 from .over_time import time as time
@@ -16,5 +17,5 @@ from .surfaces import sphere as sphere
 from .to_file import write as write
 from .turning import attitude as attitude
 
-__all__ = ["attitude", "basin", "body", "budget", "equilibria", "histogram", "phase", "potential", "section",
-           "space", "sphere", "state", "tilt", "time", "wheel", "write"]
+__all__ = ["attitude", "basin", "body", "budget", "equilibria", "histogram", "nutation", "phase", "potential",
+           "section", "space", "sphere", "state", "tilt", "time", "wheel", "write"]

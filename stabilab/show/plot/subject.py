@@ -13,6 +13,7 @@ import numpy as np
 from ...answers.caveats import of_case
 from ...answers.circular_orbit import CircularOrbit, circular_orbit
 from ...answers.equilibria import equilibria
+from ...answers.limit import Momentum
 from ...answers.motion import motion
 from ...answers.stuck.ask import stuck
 from ...answers.stuck.burn import Burned, burn
@@ -23,10 +24,11 @@ from ...errors import Caveat, InputError, Kind, printable, without
 from ...maps.percentiles import Percentiles
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
-from ...physics.coefficients import effective
+from ...physics.coefficients import content, effective
 from ...physics.own_unit import far_exponent
 from ...physics.scene import AnyScene, Scene, torque_axis
 from ...physics.states import body_momentum, checked_states, start_of
+from ...physics.symmetric_top import SymmetricTop
 from ...theories.follow import models_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
@@ -45,11 +47,11 @@ class Subject:
     """scene: as it was given; state: the three rates at t = 0 in the scene's variables (rad/s, or x), None
     without a motion; blocks: the rest of the state by name; span: (from, to) or None; heading: for titles,
     may be empty; case: where all this stands, or None; neighbours: how many motions a section shows beside
-    it, None for the usual number; known: its motion, where that is worked out already; asked: the span that
-    its pictures show, None for what is worth seeing; draws: percentiles over its uncertain numbers, where
-    they are found already. burning: a burn, after whose last closing scene and state are, in a time that
-    counts from there; burned: what it leaves; orbiting: a satellite on a circular orbit, whose scene is its
-    body with its wheels."""
+    it, None for the usual number; axis: of the body, whose nutation is shown, by name; known: its motion,
+    where that is worked out already; asked: the span that its pictures show, None for what is worth seeing;
+    draws: percentiles over its uncertain numbers, where they are found already. burning: a burn, after whose
+    last closing scene and state are, in a time that counts from there; burned: what it leaves; orbiting: a
+    satellite on a circular orbit, whose scene is its body with its wheels."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -58,6 +60,7 @@ class Subject:
     heading: str = ""
     case: Case | None = field(default=None, repr=False)
     neighbours: int | None = None
+    axis: str | None = None
     known: Motion | None = field(default=None, repr=False)
     asked: tuple[float, ...] | None = None
     draws: Percentiles | None = field(default=None, repr=False)
@@ -384,11 +387,33 @@ def _section(item: Subject) -> str:
         f"any plane {LEAST} times")
 
 
+def momentum_at_start(item: Subject) -> np.ndarray:
+    """(3,) N m s, the angular momentum at the start, along the principal axes."""
+    scene: Any = item.scene
+    start = item.start if isinstance(item.start, Mapping) else {"omega": item.start}
+    return body_momentum(scene, {name: np.asarray(values, float) for name, values in start.items()})
+
+
 def _turns(item: Subject) -> bool:
     """Whether a body with a damper inside has an angular momentum."""
-    scene: Any = item.scene
-    return any(body_momentum(scene, {name: np.asarray(item.start[name], float)
-                                     for name in ("omega", "damper")}))
+    return any(momentum_at_start(item))
+
+
+def nutates(item: Subject) -> bool:
+    """Whether a damper inside a body lets its nutation grow or die out: a page shows it."""
+    parts = content(item.scene) if item.physical and item.state is not None else None
+    return (parts is not None and (parts.damper_inside or bool(parts.movers)) and not parts.kappa
+            and Momentum.made(item.scene).stays and item.motion.ending is not None)
+
+
+def _nutation(item: Subject) -> str:
+    if not item.physical:
+        return "scaled variables have no body: give the case in physical units"
+    if item.motion.fate == Fate.EQUILIBRIUM:
+        return "the motion is an equilibrium: each axis keeps its angle to the angular momentum"
+    if SymmetricTop.of(item.scene) is None and not _turns(item):
+        return "the angular momentum is zero, so that no axis has an angle to it"
+    return ""
 
 
 def free(item: Subject) -> bool:
@@ -405,7 +430,7 @@ def _beyond(item: Subject) -> str:
 NEEDS: dict[str, tuple[bool, Callable[[Subject], str]]] = {
     "motion": (True, lambda item: ""), "range": (True, _far), "plane": (True, _phase),
     "surface": (True, _sphere), "section": (True, _section), "tilt": (True, _tilt), "wheel": (True, _wheel),
-    "equilibria": (False, _equilibria),
+    "equilibria": (False, _equilibria), "nutation": (True, _nutation),
     "body": (False, lambda item: NO_BODY * (bodily(item) is None)),
     "draws": (True, lambda item: "no number of the case has an uncertainty, from which draws could be made"
               * (item.case is None or not item.case.uncertain)),

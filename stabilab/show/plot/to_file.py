@@ -29,15 +29,16 @@ def _drawing(kind: str) -> Callable[..., Any]:
 
 def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
           dpi: float | None = None, units: str | None = None,
-          span: Any = None, neighbours: int | None = None, narrow: str | Path | None = None) -> Path:
+          span: Any = None, neighbours: int | None = None, narrow: str | Path | None = None,
+          axis: str | None = None) -> Path:
     """As `write_all`; returns the path of the first picture."""
-    return write_all(case, path, kind, size, dpi, units, span, neighbours, narrow)[0]
+    return write_all(case, path, kind, size, dpi, units, span, neighbours, narrow, axis=axis)[0]
 
 
 def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
               dpi: float | None = None, units: str | None = None, span: Any = None,
               neighbours: int | None = None, narrow: str | Path | None = None,
-              titled: bool = True) -> list[Path]:
+              titled: bool = True, axis: str | None = None) -> list[Path]:
     """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html,
     .gif, .mp4), whole or not at all; returns the path, and those of more pictures beside it
     (NAME-2.png, ...) where a state has more parts than one takes.
@@ -46,6 +47,7 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
     dpi: dots an inch of a .png. units: "deg" or "si", None for those of the case. span: in place of the
     case's own. neighbours: of a section, how many motions are shown beside it, None for six. narrow: a file
     for the first picture as a telephone shows it (`show.narrow`).
+    axis: of a nutation, "x", "y", "z" or "1", "2", "3".
     titled: False leaves the title of a plot to the page. The same input gives the
     same bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where
     the case has no such plot: it names those that there are.
@@ -56,6 +58,10 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
     chosen = checked(path, item, kind)
     if neighbours and chosen != "section":
         raise InputError(f"neighbours: a section alone shows them (kind section), got kind {chosen}")
+    if axis is not None:
+        item = replace(item, axis=axis)
+        if chosen != "nutation":
+            raise InputError(f"axis: a nutation alone is that of an axis (kind nutation), got kind {chosen}")
     demand(*style.PACKAGES)
     check_size(size, dpi)
     with style.drawing():

@@ -81,6 +81,7 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
     acted_on = (bodily and bodily.effects) or case.thrusters or case.frame and not case.frame.as_given
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not acted_on,
               "histogram": item.draws is None or not is_known(item.draws),
+              "nutation": not subjects.nutates(item),
               "sphere": "phase" in offered and not subjects.free(item), "state": subjects.rates_alone(item)}
     exact_alone = models_of(item.scene) == ("exact",)
     for kind, page in SHOWN.items():
@@ -99,6 +100,12 @@ def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_r
                                  place=page.place, more=[path.name for path in more],
                                  command=f"stabilab plot {item.path} --kind {kind}"))
     return result
+
+
+def _lacks_nothing(kind: str, item) -> bool:
+    """Whether a picture belongs to cases of another kind alone: with uncertain numbers, or dampers."""
+    return (kind == "nutation" and not subjects.nutates(item)
+            or kind == "histogram" and not item.case.uncertain)
 
 
 SMALL_BODY = (3.9, 2.9)  # inches: letters of 9.5 points have 9 px where it is shown 270 px wide
@@ -207,9 +214,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         page["thumbnail"] = _thumbnail([(item, page["look"])], folder, stem)
         missing: dict[str, list[str]] = {}  # titles by their reason
         for kind, about in SHOWN.items():
-            if kind == "histogram" and not case.uncertain:  # a case without such numbers lacks nothing
-                continue
-            missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
+            if not _lacks_nothing(kind, item):
+                missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
         changing = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
         if changing is None or changing["rows"] or changing["words"]:
@@ -264,7 +270,7 @@ def sections_of_special(full: Burning | Orbiting, folder: Path, stem: str, deep:
         row["place"] = "motion" if row["place"] == "equilibria" else row["place"]
     missing: dict[str, list[str]] = {}
     for kind, about in SHOWN.items():
-        if kind != "histogram" or case.uncertain:  # a case without such numbers lacks nothing
+        if not _lacks_nothing(kind, item):
             missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
     absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
     caveats = limiting.beside(item.caveats, units, line)

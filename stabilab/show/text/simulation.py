@@ -58,6 +58,7 @@ def text(case: Case, run: Simulation, units: Units, resolved: int | None = None,
     notes = [] if run.reason == ALL_REACHED else [f"# {units.said(run.reason)}"]
     notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].description}" for name in run.state
               if name in ATTITUDES]
+    notes += [f"# nutation: angle of {run.nutation_axis} to the angular momentum"] * bool(run.nutation_axis)
     return "\n".join([f"{case.name}: {headline(case, run, units)}",
                       *_columns(head, cells, width, 13 if resolved is None else ALL + 7), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])
@@ -129,6 +130,7 @@ def as_dict(case: Case, run: Simulation) -> dict:
             "size": [size(row) for row in run.state[rates]] if rates else None,
             **values_of(run, "t state error invariant_drift counters method rtol status"),
             "reason": run.because, "why": run.reason.as_dict(),
+            **({"nutation_axis": run.nutation_axis} if run.nutation_axis else {}),
             **{name: PARTS[name].description for name in ATTITUDES if name in run.state}
             } | frame.rows(case, run)
 
