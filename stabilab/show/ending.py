@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from .frame import back
-from .units import SHORT, Units
+from .units import SHORT, Units, number
 
 if TYPE_CHECKING:
     from ..answers.dissipation.ending import Ending
@@ -36,7 +36,8 @@ def rate(x: Ending | None, units: Units) -> str:
     if x is None or x.kind == "undecided":
         return ""
     if x.kind == "steady rotation" and x.rates:
-        return f"at {units.vector(units.axes.in_file(x.rates), units.rates, SHORT)}"
+        apart = f", its mass at {number(x.displacement, SHORT)} m" if x.displacement else ""
+        return f"at {units.vector(units.axes.in_file(x.rates), units.rates, SHORT)}{apart}"
     return f"at {units.rate(x.rate, SHORT)}" if x.rate else ""
 
 
@@ -130,6 +131,7 @@ def key(case: Case, item: Ending | None) -> dict[str, Any]:
         "reason": item.reason.as_dict(), "axis": item.axis or None,
         "sense": item.sense or None, "rate": item.rate,
         "rates": item.rates and (back(case, item.rates) or list(item.rates)), "within": item.within, **info,
+        "displacement": item.displacement,
         "nutation": item.nutation, "growth_time": item.growth, "decay_time": item.decay,
         "at_the_latest": item.at_the_latest, "estimate": item.estimate,
         "time_constants": [{"time": constant.time, "turns": constant.turns, "axis": constant.axis or None}

@@ -81,9 +81,10 @@ SOME_GO_ON = Sentence(
     "damped-in-part", "the damper keeps |H| and takes energy, so the motion is bounded; where it tends is "
     "undecided, for some rotation that is not permanent leaves its wheel at rest in the body")()
 DISPLACED = Sentence(
-    "mass-moves", "the damper keeps |H| and takes energy wherever its mass moves, so the motion is bounded; "
-    "where it tends is undecided, for at most rotations the mass stays away from where its spring is "
-    "relaxed")()
+    "mass-moves", "the damper keeps |H| and takes energy wherever its mass moves, so the motion is bounded")()
+OPEN_ROTATION = Sentence(
+    "mass-end-open", "where it tends is undecided, for at most rotations the mass stays away from where its "
+    "spring is relaxed")
 TAKES_ENERGY = Sentence(
     "takes-energy", "{part} keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so "
     "the motion is bounded and tends to permanent rotations of its |H|")
@@ -324,7 +325,7 @@ def _damped(parts: Content, omega: Sequence[float], blocks: Mapping[str, Sequenc
         if slowest <= 0:
             return Fate.UNDECIDED, DAMPERS_TOO_LARGE, bounds
         if parts.displaced:
-            return Fate.BOUNDED, DISPLACED, bounds
+            return Fate.BOUNDED, DISPLACED.then(OPEN_ROTATION()), bounds
         return Fate.BOUNDED, TAKES_ENERGY(part="the damper") if parts.all_is_damped else SOME_GO_ON, bounds
     return _permanent(parts, H, twice, "the damper")
 

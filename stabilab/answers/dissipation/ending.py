@@ -33,11 +33,13 @@ from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import System, to_numpy
 from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence
 from ...representation import Compared, Shown
-from ...unreduced.bounds import OPEN_DIRECTION
+from ...unreduced.bounds import OPEN_DIRECTION, OPEN_ROTATION
 from ..passage import MOVED, WIDER
 from ..simulate import trajectory
 from . import gyrostat as gyrostats
+from . import mass
 from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, of_case
+from .gyrostat import GyrostatSpin
 from .spinner import Spinner
 from .time_constants import TimeConstant, near_rest_across, time_constants
 from .times import Time
@@ -94,6 +96,7 @@ class Ending(Shown, Compared, Reasoned):
     decay: s, time constants of the nutation. at_the_latest: s, proved, by when it has settled; estimate: s,
     where a run to "settles" would take too many steps: at the pace that it goes at first. constants: time
     constants of small departures from the end, the longest first; empty where the end is not known.
+    displacement: m, of a damper's mass in the end, None where there is none.
     """
 
     kind: str
@@ -112,6 +115,7 @@ class Ending(Shown, Compared, Reasoned):
     estimate: float | None = None
     constants: tuple[TimeConstant, ...] = ()
     angular: bool = False
+    displacement: float | None = None
 
     def time(self, name: str) -> float | None:
         """One of its times, s."""
@@ -124,11 +128,13 @@ class Ending(Shown, Compared, Reasoned):
 
 
 def with_end(case: Case, motion: Motion) -> Motion:
-    """The motion of a case with how it ends; its reason no longer says that a direction is open which a run
-    shows."""
-    result = ending(case, motion)
-    resolved = result is not None and result.sense
-    reason = motion.reason.without(OPEN_DIRECTION) if resolved else motion.reason
+    """The motion of a case with how it ends; its reason no longer says that a direction, or a rotation, is
+    open which a run shows."""
+    result, reason = ending(case, motion), motion.reason
+    if result is not None and result.sense:
+        reason = reason.without(OPEN_DIRECTION)
+    if result is not None and result.kind != "undecided":
+        reason = reason.without(OPEN_ROTATION)
     return replace(motion, ending=result, reason=reason)
 
 
@@ -145,17 +151,25 @@ def ending(case: Any, motion: Motion) -> Ending | None:
     if size and not 1 / HUGE < size < HUGE:
         return Ending("undecided", "undecided", reason=TOO_FAR(rate=Rate(size)))
     if _free(parts):
-        return _of_gyrostat(case) if any(parts.Lambda) else _inside(case)
+        if any(parts.Lambda):
+            return _among_rotations(case, gyrostats.of_case(case, WITHIN))
+        return _inside(case)
+    if (result := _with_mass(case, parts)) is not None:
+        return result
     start = equations_and_start(scene, start_of(scene, case.state, case.blocks))[1]
     return _outside(scene, parts, start, motion)
 
 
 def _free(parts: Content) -> bool:
     """Whether a body alone carries what takes its energy, with an angular momentum that it keeps."""
-    outside = any(parts.M) or any(parts.u) or parts.c or parts.damped or parts.directed or parts.charged
     if parts.movers and (parts.displaced or not parts.all_is_damped):
         return False
-    return not outside and (parts.damper_inside if any(parts.Lambda) else len(set(parts.D)) > 1)
+    return not _from_outside(parts) and (parts.damper_inside if any(parts.Lambda) else len(set(parts.D)) > 1)
+
+
+def _from_outside(parts: Content) -> bool:
+    """Whether something acts on the body that may change its angular momentum."""
+    return bool(any(parts.M) or any(parts.u) or parts.c or parts.damped or parts.directed or parts.charged)
 
 
 # --- Inside a free body
@@ -193,9 +207,21 @@ def of_spin(result: FlatSpin) -> Ending:
                   result.decay, reason=reason)
 
 
-def _of_gyrostat(case: Any) -> Ending:
-    """The same of a body with wheels, among the rotations at its angular momentum."""
-    result = gyrostats.of_case(case, WITHIN)
+def _with_mass(case: Any, parts: Content) -> Ending | None:
+    """The same of a body with a damper's mass that rotations displace; None where these are not all known."""
+    if not parts.movers or not parts.displaced or _from_outside(parts):
+        return None
+    if not any(Spinner.made(case).momentum):
+        return Ending("rest", "exact", reason=NO_MOMENTUM, rate=0.0, rates=(0.0,) * 3)
+    try:
+        result = mass.of_case(case)
+    except InputError:  # wheels beside it, or no spring: a run says where it tends
+        return None
+    return None if result is None else _among_rotations(case, result)
+
+
+def _among_rotations(case: Any, result: GyrostatSpin) -> Ending:
+    """The same of a body with wheels, or a damper's mass, among the rotations at its angular momentum."""
     reason = result.reason
     for drawn in (caveat.reason for caveat in result.caveats if caveat.kind is Kind.UNCERTAIN):
         reason = reason.then(drawn)
@@ -205,9 +231,19 @@ def _of_gyrostat(case: Any) -> Ending:
     rate = math.hypot(*end.rates)
     ahead = (("crosses", result.crosses), ("settles", result.settles), ("tenth", result.tenth))
     times = tuple((name, item) for name, item in ahead if item is not None)
+    constants = () if result.rates is None else _about(case, result.rates, end.displacement)
     return Ending("steady rotation" if rate else "rest", result.level, end.axis, rate=rate,
                   rates=result.rates, within=result.within, times=times, decay=end.decay, reason=reason,
-                  angular=True)
+                  constants=constants, angular=True, displacement=end.displacement)
+
+
+def _about(case: Any, rates: Float3, displacement: float | None) -> tuple[TimeConstant, ...]:
+    """The time constants next to a rotation at which a damper's mass, if any, is displaced, m."""
+    at: list[float] = [0.0] * len(Spinner.made(case).start)
+    at[:3] = rates
+    if displacement:
+        at[slices(case.scene.blocks)["damper_mass"].start] = displacement
+    return time_constants(case.scene, at, exact=False)
 
 
 # --- From outside

@@ -23,19 +23,20 @@ import numpy as np
 
 from ...case.read import Case, with_data
 from ...case.source import parsed
+from ...equilibrium.mass_rotations import MassRotation
 from ...equilibrium.momentum_sphere import MINIMUM, MomentumSphere, Rotation
 from ...errors import Caveat, Kind, without
 from ...numbers.exact import floats
 from ...numbers.vectors import Float3, cross, dot
 from ...physics.scene import Scene, slices
-from ...physics.states import body_momentum, moved_row
+from ...physics.states import body_momentum
 from ...physics.to_numpy import to_numpy
-from ...reasons import Energy, Quantity, Rate, Reason, Sentence
+from ...reasons import Energy, Rate, Reason, Sentence
 from ..caveats import caveats_of
-from ..passage import MOVED, WIDER
 from .rotations import Rotations, described, sphere_of, threshold_of, why
-from .spinner import ENDED, Run, Spinner
+from .spinner import Run, Spinner
 from .times import Time
+from .two_runs import SECOND, TwoRuns
 
 STEADY, CIRCLE, UNDECIDED = "steady rotation", "circle of rotations", "undecided"
 LEAST = Sentence("rotation-of-least-energy-at-momentum",
@@ -81,7 +82,6 @@ ENDS_ALIKE = Sentence("ends-alike", "of {drawn} motions drawn from their box {sa
                       "{others} elsewhere")
 OPEN_OVER_BOX = Sentence("gyrostat-end-open-over-box", "the uncertain numbers leave it open: {found}")
 SAME_OVER_BOX = Sentence("gyrostat-end-over-box", "uncertain numbers: {found}; samples, no proof")
-SECOND_RTOL = 1e-13  # tolerance of the second run
 RUN_STEPS = 5_000_000  # of a run: some ten seconds
 DRAWN = 32  # motions from the box of uncertain numbers
 DRAWN_STEPS = 6_000_000  # of all of them
@@ -195,7 +195,7 @@ def _answered(case: Case, spinner: Gyrostat, angle: float) -> GyrostatSpin:
         float(spinner.size), described(spinner.scene, sphere), threshold_of(case, sphere), reason=why(sphere),
         energy=float(spinner.energy), within=angle)
     if not any(spinner.momentum):
-        return _ending(result, 0, "exact", CANCELS)
+        return with_end_at(result, 0, "exact", CANCELS)
     if not spinner.moves_inside and not any(cross(spinner.momentum, spinner.omega)):
         return _at_rest(spinner, result)
     indices = [n for n, rotation in enumerate(sphere.rotations) if rotation.nature == MINIMUM]
@@ -206,7 +206,7 @@ def _answered(case: Case, spinner: Gyrostat, angle: float) -> GyrostatSpin:
     energies = {"energy": Energy(result.energy), "barrier": Energy(float(barrier.energy))}
     if sphere.above(spinner.energy, barrier) <= 0:
         end = _on_side(sphere, sphere.side(spinner.momentum, barrier))
-        result = _ending(replace(result, reachable=(end,)), end, "exact", BELOW_PASS(**energies))
+        result = with_end_at(replace(result, reachable=(end,)), end, "exact", BELOW_PASS(**energies))
         return _timed(spinner, result)
     if _has_liquid(spinner.scene):
         return replace(result, reason=LIQUID_PHASE(**energies))
@@ -220,16 +220,21 @@ def _has_liquid(scene: Scene) -> bool:
 def _at_rest(spinner: Gyrostat, result: GyrostatSpin) -> GyrostatSpin:
     """A start that is a rotation itself."""
     H, least = floats(spinner.momentum), spinner.sphere.rotations
-    at = min(range(len(least)), key=lambda n: _apart(H, least[n]))
+    at = min(range(len(least)), key=lambda n: apart(H, least[n]))
     if least[at].nature == MINIMUM:
-        stays = _ending(replace(result, reachable=(at,)), at, "exact", LEAST)
-        return replace(stays, outcome=STEADY, rates=floats(spinner.omega))
+        return staying(spinner, result, at)
     return replace(result, reason=NOT_LEAST(nature=least[at].nature))
 
 
-def _apart(H: Sequence[float], rotation: Rotation) -> float:
+def staying(spinner: Spinner, result: GyrostatSpin, at: int) -> GyrostatSpin:
+    """Of a start that is a minimum itself, on a circle one of its points."""
+    stays = with_end_at(replace(result, reachable=(at,)), at, "exact", LEAST)
+    return replace(stays, outcome=STEADY, rates=floats(spinner.omega))
+
+
+def apart(H: Sequence[float], rotation: Rotation | MassRotation) -> float:
     """How far a momentum is from that of a rotation, or of its circle."""
-    K = floats(rotation.momentum)
+    K = tuple(map(float, rotation.momentum))
     if not rotation.axis:
         return math.dist(H, K)
     i = rotation.axis - 1
@@ -242,7 +247,7 @@ def _toward_one(spinner: Gyrostat, result: GyrostatSpin, end: int) -> GyrostatSp
     if trap is not None and spinner.sphere.above(spinner.energy, trap) > 0:
         return replace(result, reason=ABOVE_TRAP)
     reason = ONE_CIRCLE if result.rotations[end].axis else ONE_MINIMUM
-    return _timed(spinner, _ending(result, end, "exact", reason))
+    return _timed(spinner, with_end_at(result, end, "exact", reason))
 
 
 def _on_side(sphere: MomentumSphere, side: int) -> int:
@@ -250,7 +255,7 @@ def _on_side(sphere: MomentumSphere, side: int) -> int:
     return sphere.rotations.index(sphere.minima[0 if side > 0 else 1])
 
 
-def _ending(result: GyrostatSpin, end: int, level: str, reason: Reason) -> GyrostatSpin:
+def with_end_at(result: GyrostatSpin, end: int, level: str, reason: Reason) -> GyrostatSpin:
     """With an end, and why."""
     item = result.rotations[end]
     return replace(result, outcome=CIRCLE if item.axis else STEADY, level=level, end=end, reason=reason,
@@ -262,44 +267,35 @@ def _timed(spinner: Gyrostat, result: GyrostatSpin) -> GyrostatSpin:
     """With the times of a motion that goes on, and with its end where a run shows that."""
     if _has_liquid(spinner.scene):
         return replace(result, reason=result.reason.then(LIQUID_AS_LOSS))
-    runs = [Run(spinner, spinner.start, None, RUN_STEPS, spinner.pace),
-            Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL, RUN_STEPS, spinner.pace)]
-    crossed: list[float] | None = None
+    runs = TwoRuns(spinner, RUN_STEPS, spinner.pace)
+    crossed: Time | None = None
     if result.end is None:
         result, crossed = _passed(spinner, result, runs)
     elif result.barrier is not None:
         result = replace(result, reachable=(result.end,))
     name, times = ("settles", None) if result.end is None else _settled(spinner, result, runs)
-    found: dict[str, Any] = {"crosses": agreed(crossed), name: agreed(times)}
-    return replace(result, steps=runs[0].steps, **found,
-                   caveats=caveats_of(spinner.scene, validity=runs[0].validity))
+    found: dict[str, Any] = {"crosses": crossed, name: times}
+    return replace(result, steps=runs.first.steps, **found,
+                   caveats=caveats_of(spinner.scene, validity=runs.first.validity))
 
 
-def agreed(times: list[float] | None) -> Time | None:
-    """The time of the first of two runs, known to how far they are apart."""
-    return None if times is None else Time(times[0], WIDER * abs(times[0] - times[1]) + 1e-15 * times[0])
-
-
-def _passed(spinner: Gyrostat, result: GyrostatSpin,
-            runs: list[Run]) -> tuple[GyrostatSpin, list[float] | None]:
+def _passed(spinner: Gyrostat, result: GyrostatSpin, runs: TwoRuns) -> tuple[GyrostatSpin, Time | None]:
     """Both runs to the pass: with the end on whose side they are then."""
     barrier = spinner.sphere.passes[0]
     height = float(barrier.energy)
-    times = [run.falls(spinner.ratio_of(height)) for run in runs]
-    if (reached := [t for t in times if t is not None]) != times:
-        return replace(result, reason=PASS_NOT_REACHED(
-            barrier=Energy(height), why=runs[0].why or runs[1].why or ENDED)), None
-    second: dict[str, Any] = {"moved": int(MOVED), "tolerance": Quantity(SECOND_RTOL, digits=1)}
-    sides = [spinner.side_of(run.state, barrier) for run in runs]
-    if sides[0] != sides[1]:
-        return replace(result, reason=BETWEEN_MINIMA(**second)), reached
-    end = _on_side(spinner.sphere, sides[0])
+    reached = runs.falls(spinner.ratio_of(height))
+    if reached is None:
+        return replace(result, reason=PASS_NOT_REACHED(barrier=Energy(height), why=runs.why)), None
+    first, second = runs.come_to(lambda state: spinner.side_of(state, barrier))
+    if first != second:
+        return replace(result, reason=BETWEEN_MINIMA(**SECOND)), reached
+    end = _on_side(spinner.sphere, first)
     reason = PASS_FALLS(energy=Energy(result.energy), barrier=Energy(height),
-                        rates=Rate(result.rotations[end].rates), **second)
-    return _ending(result, end, "run", reason), reached
+                        rates=Rate(result.rotations[end].rates), **SECOND)
+    return with_end_at(result, end, "run", reason), reached
 
 
-def _settled(spinner: Gyrostat, result: GyrostatSpin, runs: list[Run]) -> tuple[str, list[float] | None]:
+def _settled(spinner: Gyrostat, result: GyrostatSpin, runs: TwoRuns) -> tuple[str, Time | None]:
     """("settles", when both are within the angle of the end), or, where they are at the start, ("tenth", when
     their departure is a tenth of it); None where they are not."""
     end = spinner.sphere.rotations[result.end or 0]
@@ -308,9 +304,7 @@ def _settled(spinner: Gyrostat, result: GyrostatSpin, runs: list[Run]) -> tuple[
         name, height = "tenth", float(end.energy + (spinner.energy - end.energy) / 100)
     if height - end.energy < SMALLEST * spinner.energy:
         return name, None
-    level = spinner.ratio_of(height)
-    times = [run.falls(level) if run.why is None else None for run in runs]
-    return name, [t for t in times if t is not None] if None not in times else None
+    return name, runs.falls(spinner.ratio_of(height))
 
 
 def near(sphere: MomentumSphere, end: Rotation, angle: float) -> float:

@@ -11,7 +11,6 @@ import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -19,15 +18,16 @@ from ...case.read import Case
 from ...equilibrium.mass_rotations import DEGENERATE, BodyWithMass, MassRotation
 from ...equilibrium.momentum_sphere import MINIMUM, STABLE, UNSTABLE
 from ...errors import InputError
+from ...numbers.exact import floats
 from ...numbers.vectors import cross, dot
 from ...physics.coefficients import Content, content
 from ...physics.scene import Scene, slices
-from ...physics.states import body_momentum, moved_row
-from ...reasons import Energy, Quantity, Reason, Sentence
-from ..passage import MOVED
-from .gyrostat import LEAST, NOT_LEAST, STEADY, GyrostatSpin, agreed
+from ...physics.states import body_momentum
+from ...reasons import Energy, Reason, Sentence
+from .gyrostat import NOT_LEAST, GyrostatSpin, apart, staying, with_end_at
 from .rotations import Rotations, SteadyRotation, constants
-from .spinner import ENDED, Run, Spinner
+from .spinner import Spinner
+from .two_runs import SECOND, TwoRuns
 
 OPEN = "undecided"
 CRITICAL = Sentence(
@@ -55,9 +55,9 @@ BETWEEN = Sentence(
     "between-mass-rotations", "the start is within rounding of the boundary between two rotations that "
     "attract: a run and a second one, from a start moved by {moved} in its last place with tolerance "
     "{tolerance}, end at different ones")
-SECOND_RTOL = 1e-13  # tolerance of the second run
 RUN_STEPS = 2_000_000  # of a run: some five seconds
 TENTH = 100  # part of the energy above its end that is left when the departure is a tenth
+SAME_END = 1e-3  # of |H| and of the spring's length: a descent comes much nearer to a rotation
 STRIDE, SMALLEST = 0.02, 1e-9  # of a descent, in units of |H| and of the spring's length
 
 
@@ -167,10 +167,9 @@ class MassSpin(Spinner):
                 H, x, here, stride = to, at, lower, min(STRIDE, stride * 1.5)
             else:
                 stride /= 2
-        apart = [math.dist(item.momentum, H) / size + abs(item.displacement - x) / unit
-                 for item in (body.rotations[n] for n in body.minima)]
-        n = int(np.argmin(apart)) if apart else -1
-        return body.minima[n] if apart and apart[n] < 1e-3 else None
+        away = {n: apart(H.tolist(), item) / size + abs(item.displacement - x) / unit
+                for n, item in enumerate(body.rotations) if item.nature == MINIMUM}
+        return next((n for n in sorted(away, key=away.__getitem__) if away[n] < SAME_END), None)
 
 
 def of_case(case: Case) -> GyrostatSpin | None:
@@ -192,7 +191,7 @@ def _answered(spinner: MassSpin) -> GyrostatSpin:
                           barrier=barrier if math.isfinite(barrier) else None, reachable=body.minima)
     if (at := _resting(spinner)) is not None:
         if body.rotations[at].nature == MINIMUM:
-            return _ending(replace(result, reachable=(at,)), at, "exact", LEAST)
+            return staying(spinner, result, at)
         return replace(result, reason=NOT_LEAST(nature=body.rotations[at].nature))
     return _followed(spinner, result)
 
@@ -200,34 +199,25 @@ def _answered(spinner: MassSpin) -> GyrostatSpin:
 def _followed(spinner: MassSpin, result: GyrostatSpin) -> GyrostatSpin:
     """With the end that two runs come to."""
     body, energy, barrier = spinner.body, result.energy, spinner.body.lowest_pass
-    runs = [Run(spinner, spinner.start, None, RUN_STEPS),
-            Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL, RUN_STEPS)]
-    above, crossed = energy >= barrier, None
-    if above:
-        crossed = _both(runs, spinner.ratio_of(barrier))
-    ends = [None if above and crossed is None else spinner.minimum_below(run.state) for run in runs]
-    result = replace(result, steps=runs[0].steps, crosses=agreed(crossed))
-    numbers: dict[str, Any] = {"moved": int(MOVED), "tolerance": Quantity(SECOND_RTOL, digits=1)}
-    if ends[0] != ends[1]:
-        return replace(result, reason=BETWEEN(**numbers))
-    end = ends[0]
+    runs = TwoRuns(spinner, RUN_STEPS)
+    above = energy >= barrier
+    crossed = runs.falls(spinner.ratio_of(barrier)) if above else None
+    result = replace(result, steps=runs.first.steps, crosses=crossed)
+    if above and crossed is None:
+        return replace(result, reason=NOT_REACHED(why=runs.why))
+    end, other = runs.come_to(spinner.minimum_below)
+    if end != other:
+        return replace(result, reason=BETWEEN(**SECOND))
     if end is None:
-        return replace(result, reason=NOT_REACHED(why=runs[0].why or runs[1].why or ENDED))
+        return replace(result, reason=NOT_REACHED(why=runs.why))
     least = body.rotations[end].energy
-    tenth = _both(runs, spinner.ratio_of(least + (energy - least) / TENTH))
+    tenth = runs.falls(spinner.ratio_of(least + (energy - least) / TENTH))
     if tenth is None:
-        return replace(result, reason=NOT_REACHED(why=runs[0].why or runs[1].why or ENDED))
-    reason = (FALLS_INTO if above else IN_A_PIECE)(energy=Energy(energy), barrier=Energy(barrier), **numbers)
-    result = replace(result, reachable=result.reachable if above else (end,), tenth=agreed(tenth),
-                     steps=runs[0].steps)
-    return _ending(result, end, "run", reason)
-
-
-def _both(runs: list[Run], level: float) -> list[float] | None:
-    """When both fall to a level of 2 T/|H|^2; None where one does not."""
-    times = [run.falls(level) for run in runs]
-    reached = [t for t in times if t is not None]
-    return reached if len(reached) == len(times) else None
+        return replace(result, reason=NOT_REACHED(why=runs.why))
+    reason = (FALLS_INTO if above else IN_A_PIECE)(energy=Energy(energy), barrier=Energy(barrier), **SECOND)
+    result = replace(result, reachable=result.reachable if above else (end,), tenth=tenth,
+                     steps=runs.first.steps)
+    return with_end_at(result, end, "run", reason)
 
 
 def _resting(spinner: MassSpin) -> int | None:
@@ -237,11 +227,6 @@ def _resting(spinner: MassSpin) -> int | None:
     r, n, w = spinner.body.r, spinner.body.line, spinner.omega
     if dot(r, n) * dot(w, w) != dot(r, w) * dot(n, w):  # the pull on the mass
         return None
-    apart = [math.dist(item.omega, map(float, w)) for item in spinner.body.rotations]
-    return int(np.argmin(apart))
-
-
-def _ending(result: GyrostatSpin, end: int, level: str, reason: Reason) -> GyrostatSpin:
-    item = result.rotations[end]
-    return replace(result, outcome=STEADY, level=level, end=end, reason=reason, rates=item.rates,
-                   final_energy=item.energy)
+    relaxed = [n for n, item in enumerate(spinner.body.rotations) if not item.displacement]
+    H = floats(spinner.momentum)
+    return min(relaxed, key=lambda n: apart(H, spinner.body.rotations[n]))

@@ -89,8 +89,8 @@ def test_they_rest_and_are_stable_by_newtons_equations(seed):
         J = np.array([(np.array(rate(0, at + v)) - rate(0, at - v)) / (2 * step) for v in step * np.eye(5)]).T
         values = sorted(np.linalg.eigvals(J), key=abs)[1:]  # |H| may be another
         growth = max(z.real for z in values)
-        if abs(growth) < 1e-7 * np.abs(values).max():  # a nutation that does not move the mass
-            assert item.decay is None and item.growth is None
+        if abs(growth) < 1e-7 * np.abs(values).max():  # a nutation that moves the mass less than differences show
+            assert item.growth is None and 1 / (item.decay or math.inf) < 2e-7 * np.abs(values).max()
             assert item.with_losses == ("stable" if item.nature == "minimum" else "undecided")
             continue
         assert (item.with_losses == "stable") == (growth < 0) == (item.nature == "minimum")
@@ -129,6 +129,45 @@ def test_a_motion_ends_at_the_rotation_that_its_run_comes_to(seed):
     item = found.rotations[found.end]
     assert end[:4] == pytest.approx([*item.rates, item.displacement], abs=1e-3 * (1 + np.abs(omega).max()))
     assert found.level == "run" and found.tenth.at < until
+    ending = stabilab.motion(load(_scene(D, place, line, k), {"omega": omega})).ending  # the same list
+    assert (ending.rates, ending.displacement) == (item.rates, item.displacement)
+
+
+def test_fate_has_the_end_of_the_list_in_all_digits(stabilab):
+    """By hand: |H|/D3 of the public example; on a soft spring along its line, turning across it, k x = W^2 J'(x)/2."""
+    code, out, _ = stabilab("fate", CASES / "dampers" / "mass.toml", "--json")
+    end = json.loads(out)[0]["ending"]
+    assert code == 0 and (end["level"], end["displacement"]) == ("run", 0)
+    assert end["rates"] == pytest.approx([0, 0, math.hypot(137.57, 1454.6217821782178) / 1454.6217821782178], rel=1e-14)
+    assert end["tenth"] and end["time_constants"][0]["time"] == pytest.approx(311.5, rel=1e-3)  # of flat-spin: 5.191 min
+
+
+def test_a_body_of_revolution_ends_on_a_circle_whose_point_the_phase_decides():
+    """By hand: mass on the axis z, line along it, turning at W about x: k x = mu W^2 (r + x), |H| = (D1 + mu (2 r x +
+    x^2)) W."""
+    scene = _scene((2, 2, 1), (0, 0, 0.3), (0, 0, 1), 20, 4)
+    ending = stabilab.motion(load(scene, {"omega": (0.5, 0, 0)})).ending
+    mu, r, x = MASS * (WHOLE - MASS) / WHOLE, 0.3, ending.displacement
+    place = r * WHOLE / (WHOLE - MASS)  # from the mass centre of the rest
+    W = 1 / (2 + mu * (2 * place * x + x * x))  # |H| = 2 0.5
+    assert 20 * x == pytest.approx(mu * W * W * (place + x), rel=1e-9) and ending.rate == pytest.approx(W, rel=1e-9)
+    assert ending.rates is None and ending.axis == 3
+
+
+@pytest.mark.slow
+def test_a_nutation_that_leaves_the_mass_where_it_is_has_no_end():
+    """A symmetric body with the mass on its axis: by hand the pull on it is constant along a nutation."""
+    scene = _scene((2, 2, 1), (0, 0, 0.3), (0, 0, 1), 20, 4)
+    ending = stabilab.motion(load(scene, {"omega": (0.5, 0.1, 0.4)})).ending
+    assert ending.kind == "undecided" and "does not come near" in ending.because
+
+
+@pytest.mark.slow
+def test_with_a_wheel_beside_the_mass_a_run_shows_the_end():
+    scene = _scene((1, 1.5, 2), (0.4, 0, 0), (0, 0, 1), 2, 1, Gyrostat((0, 0, 1)))
+    ending = stabilab.motion(load(scene, {"omega": [0, 0.1, 1]})).ending
+    H = math.hypot(1.5 * 0.1, 2 + 1)
+    assert ending.kind == "steady rotation" and ending.rates[2] == pytest.approx((H - 1) / 2, rel=1e-6)  # by hand
 
 
 def test_the_spacecraft_with_a_particle_turns_about_its_largest_moment_in_the_end(stabilab):
