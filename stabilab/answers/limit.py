@@ -268,8 +268,8 @@ def _angle_of_axis(scene: AnyScene, value: Any, name: str) -> tuple[Exact3, str,
     vector, named = _direction(axis, name)
     angle = _positive(angle, name)
     if not float(angle) < math.pi:
-        raise InputError(
-            f"{name}: expected an angle below half a turn (pi rad, 180 deg), got {float(angle):.10g} rad")
+        raise InputError(f"{name}: expected an angle below half a turn (pi rad, 180 deg), got "
+                         f"{float(angle):.10g} rad ({math.degrees(angle):.6g} deg)")
     return vector, named, angle
 
 

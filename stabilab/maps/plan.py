@@ -381,8 +381,10 @@ def _plain(name: str, request: str) -> list[float]:
 def _judge(plan: Plan) -> None:
     case = plan.case
     if not plan.vary and plan.samples is None:
+        answered = (f"; stabilab fate and the other questions answer every case of the [sweep] in {case.path}"
+                    if "sweep" in parsed(plan.path, plan.text)[0] else "")
         raise InputError('nothing varies: give --vary KEY=START:STOP:COUNT, such as --vary '
-                         '"motion.angular_velocity[1]=0:30:31 deg/s", or --samples N')
+                         f'"motion.angular_velocity[1]=0:30:31 deg/s", or --samples N{answered}')
     each_once(axis.key for axis in plan.axes)
     if len(plan.shape) > AXES:
         raise InputError(f"expected at most {AXES} axes, got {len(plan.shape)}")

@@ -268,6 +268,11 @@ def test_an_interrupt_takes_an_empty_folder_of_parts_along(tmp_path):
     assert code == 130 and not (tmp_path / "f.nc.parts").exists()
 
 
+def test_without_ranges_it_names_what_answers_the_cases_of_the_file():
+    with pytest.raises(InputError, match=r"stabilab fate and the other questions answer every case of the .sweep."):
+        planned(CASES / "charged-sweep.toml", {})
+
+
 @pytest.mark.parametrize("options, words", [
     ({"vary": {}}, "nothing varies"),
     ({"vary": {"x[1]": "0:1:3", "motion.x[1]": "2:3:2"}}, "varies already"),

@@ -214,7 +214,7 @@ def _with_mass(case: Any, parts: Content) -> Ending | None:
     if not any(Spinner.made(case).momentum):
         return Ending("rest", "exact", reason=NO_MOMENTUM, rate=0.0, rates=(0.0,) * 3)
     try:
-        result = mass.of_case(case)
+        result = mass.of_case(case, WITHIN)
     except InputError:  # wheels beside it, or no spring: a run says where it tends
         return None
     return None if result is None else _among_rotations(case, result)
@@ -230,7 +230,8 @@ def _among_rotations(case: Any, result: GyrostatSpin) -> Ending:
     end = result.rotations[result.end]
     rate = math.hypot(*end.rates)
     ahead = (("crosses", result.crosses), ("settles", result.settles), ("tenth", result.tenth))
-    times = tuple((name, item) for name, item in ahead if item is not None)
+    times = tuple(sorted(((name, item) for name, item in ahead if item is not None),
+                         key=lambda entry: entry[1].at))
     constants = () if result.rates is None else _about(case, result.rates, end.displacement)
     return Ending("steady rotation" if rate else "rest", result.level, end.axis, rate=rate,
                   rates=result.rates, within=result.within, times=times, decay=end.decay, reason=reason,

@@ -185,7 +185,7 @@ def at_momentum(case: Case, size: Fraction) -> Rotations:
 def any_of_case(case: Case, angle: float) -> FlatSpin | GyrostatSpin:
     """The same of a case and an angle in rad, with wheels or without."""
     scene: Any = case.scene
-    if (result := mass.of_case(case)) is not None:
+    if (result := mass.of_case(case, angle)) is not None:
         return result
     wheels = case.variables == "physical" and any(scene.vector("gyrostat"))
     return gyrostat.of_case(case, angle) if wheels else of_case(case, angle)

@@ -309,20 +309,8 @@ def _settled(spinner: Gyrostat, result: GyrostatSpin, runs: TwoRuns) -> tuple[st
 
 def near(sphere: MomentumSphere, end: Rotation, angle: float) -> float:
     """The energy, J, below which H is within an angle of where an end has it, on its side of a pass."""
-    D, wheel, K = (np.array(floats(v)) for v in (sphere.D, sphere.wheel, end.momentum))
-    size = float(np.linalg.norm(K))
-    if end.axis:  # a cone on either side of the circle
-        up, i = math.asin(max(-1.0, min(1.0, K[end.axis - 1] / size))), end.axis - 1
-        j = (i + 1) % 3
-        H = np.zeros((2, 3))
-        for row, lean in zip(H, (up - angle, up + angle)):
-            row[i], row[j] = size * math.sin(lean), size * math.cos(lean)
-    else:
-        first = np.cross(K, np.eye(3)[int(np.argmin(np.abs(K)))])
-        first /= np.linalg.norm(first)
-        other = np.cross(K / size, first)
-        phase = np.linspace(0, 2 * math.pi, AROUND, endpoint=False)[:, None]
-        H = K * math.cos(angle) + size * math.sin(angle) * (np.cos(phase) * first + np.sin(phase) * other)
+    D, K = (np.array(floats(v)) for v in (sphere.D, end.momentum))
+    H = at_angle(K, end.axis, angle, AROUND)
     # the difference of energies, by its quadratic form
     A = 1 / D - float(end.multiplier or 0)
     above = ((H - K) ** 2 * A).sum(axis=1) / 2
@@ -332,6 +320,24 @@ def near(sphere: MomentumSphere, end: Rotation, angle: float) -> float:
         on_side = (H[:, i] - float(barrier.momentum[i])) * float(end.momentum[i] - barrier.momentum[i]) > 0
         above = np.append(above[on_side], height)
     return float(end.energy) + float(above.min())
+
+
+def at_angle(K: np.ndarray, axis: int, angle: float, around: int) -> np.ndarray:
+    """(n, 3) momenta of the size of K at an angle from it, so many around it; axis: 1 to 3, from the circle
+    about that axis through K, one on either side, 0 of a point."""
+    size = float(np.linalg.norm(K))
+    if axis:
+        up, i = math.asin(max(-1.0, min(1.0, K[axis - 1] / size))), axis - 1
+        j = (i + 1) % 3
+        H = np.zeros((2, 3))
+        for row, lean in zip(H, (up - angle, up + angle)):
+            row[i], row[j] = size * math.sin(lean), size * math.cos(lean)
+        return H
+    first = np.cross(K, np.eye(3)[int(np.argmin(np.abs(K)))])
+    first /= np.linalg.norm(first)
+    other = np.cross(K / size, first)
+    phase = np.linspace(0, 2 * math.pi, around, endpoint=False)[:, None]
+    return K * math.cos(angle) + size * math.sin(angle) * (np.cos(phase) * first + np.sin(phase) * other)
 
 
 # --- Uncertain numbers

@@ -24,9 +24,10 @@ from ...physics.coefficients import Content, content
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum
 from ...reasons import Energy, Reason, Sentence
-from .gyrostat import NOT_LEAST, GyrostatSpin, apart, staying, with_end_at
+from .gyrostat import NOT_LEAST, GyrostatSpin, apart, at_angle, staying, with_end_at
 from .rotations import Rotations, SteadyRotation, constants
 from .spinner import Spinner
+from .times import Time
 from .two_runs import SECOND, TwoRuns
 
 OPEN = "undecided"
@@ -58,6 +59,7 @@ BETWEEN = Sentence(
 RUN_STEPS = 2_000_000  # of a run: some five seconds
 TENTH = 100  # part of the energy above its end that is left when the departure is a tenth
 SAME_END = 1e-3  # of |H| and of the spring's length: a descent comes much nearer to a rotation
+AROUND, TRIED, ROUNDS = 180, 41, 4  # directions about an end, displacements of each, ever closer ones
 STRIDE, SMALLEST = 0.02, 1e-9  # of a descent, in units of |H| and of the spring's length
 
 
@@ -145,6 +147,24 @@ class MassSpin(Spinner):
         blocks = {name: state[part] for name, part in slices(self.scene.blocks).items()}
         return np.array(body_momentum(self.scene, blocks), float), float(blocks["damper_mass"][0])
 
+    def near(self, end: int, angle: float) -> float:
+        """The energy, J, below which H is within an angle of where an end has it, and stays: the least of E
+        at that angle, at any displacement, or the lowest pass."""
+        body, item = self.body, self.body.rotations[end]
+        D, J1, J2 = body.matrices
+        k, H = float(body.k), at_angle(np.array(item.momentum), item.axis, angle, AROUND)
+        widest = math.sqrt(2 * body.rotations[-1].energy / k)
+        x, width = np.zeros(len(H)), widest
+        rows = np.arange(len(H))
+        for _ in range(ROUNDS):
+            tried = x[:, None] + width * np.linspace(-1, 1, TRIED)
+            J = D + tried[..., None, None] * J1 + (tried**2)[..., None, None] * J2
+            w = np.linalg.solve(J, np.broadcast_to(H[:, None, :, None], (*tried.shape, 3, 1)))[..., 0]
+            heights = (w * H[:, None]).sum(axis=-1) / 2 + k * tried**2 / 2
+            best = heights.argmin(axis=1)
+            x, width = tried[rows, best], 2 * width / (TRIED - 1)
+        return min(float(heights[rows, best].min()), body.lowest_pass)
+
     def minimum_below(self, state: np.ndarray) -> int | None:
         """Which rotation a descent of E from a state comes to, in small steps."""
         body, (H, x) = self.body, self.place(state)
@@ -172,23 +192,25 @@ class MassSpin(Spinner):
         return next((n for n in sorted(away, key=away.__getitem__) if away[n] < SAME_END), None)
 
 
-def of_case(case: Case) -> GyrostatSpin | None:
-    """The end of a case whose damper has a mass that rotations displace; None of another one."""
+def of_case(case: Case, angle: float) -> GyrostatSpin | None:
+    """The end of a case whose damper has a mass that rotations displace; None of another one. angle: rad, of
+    `settles`."""
     if case.variables != "physical" or case.state is None:
         return None
     parts = content(case.scene)
     if parts is None or not parts.displaced or not parts.movers:
         return None
     spinner = MassSpin.of(case, displaced=True)
-    return replace(_answered(spinner), caveats=case.caveats)
+    return replace(_answered(spinner, angle), caveats=case.caveats)
 
 
-def _answered(spinner: MassSpin) -> GyrostatSpin:
+def _answered(spinner: MassSpin, angle: float) -> GyrostatSpin:
     body, energy = spinner.body, float(spinner.energy)
     barrier = body.lowest_pass
     rows = described(spinner.scene, body)
     result = GyrostatSpin(spinner.size, rows, reason=_why(body, rows), energy=energy,
-                          barrier=barrier if math.isfinite(barrier) else None, reachable=body.minima)
+                          barrier=barrier if math.isfinite(barrier) else None, reachable=body.minima,
+                          within=angle)
     if (at := _resting(spinner)) is not None:
         if body.rotations[at].nature == MINIMUM:
             return staying(spinner, result, at)
@@ -211,12 +233,15 @@ def _followed(spinner: MassSpin, result: GyrostatSpin) -> GyrostatSpin:
     if end is None:
         return replace(result, reason=NOT_REACHED(why=runs.why))
     least = body.rotations[end].energy
-    tenth = runs.falls(spinner.ratio_of(least + (energy - least) / TENTH))
-    if tenth is None:
+    levels = {"tenth": least + (energy - least) / TENTH, "settles": spinner.near(end, result.within)}
+    ahead = sorted((name for name, level in levels.items() if least < level <= energy),
+                   key=lambda name: -levels[name])
+    times: dict[str, Time | None] = {name: runs.falls(spinner.ratio_of(levels[name])) for name in ahead}
+    if times["tenth"] is None:
         return replace(result, reason=NOT_REACHED(why=runs.why))
     reason = (FALLS_INTO if above else IN_A_PIECE)(energy=Energy(energy), barrier=Energy(barrier), **SECOND)
-    result = replace(result, reachable=result.reachable if above else (end,), tenth=tenth,
-                     steps=runs.first.steps)
+    result = replace(result, reachable=result.reachable if above else (end,), steps=runs.first.steps,
+                     tenth=times["tenth"], settles=times.get("settles"))
     return with_end_at(result, end, "run", reason)
 
 

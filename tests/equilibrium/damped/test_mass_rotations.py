@@ -139,7 +139,23 @@ def test_fate_has_the_end_of_the_list_in_all_digits(stabilab):
     end = json.loads(out)[0]["ending"]
     assert code == 0 and (end["level"], end["displacement"]) == ("run", 0)
     assert end["rates"] == pytest.approx([0, 0, math.hypot(137.57, 1454.6217821782178) / 1454.6217821782178], rel=1e-14)
-    assert end["tenth"] and end["time_constants"][0]["time"] == pytest.approx(311.5, rel=1e-3)  # of flat-spin: 5.191 min
+    assert end["settles"][0] < end["tenth"][0] and end["time_constants"][0]["time"] == pytest.approx(311.5, rel=1e-3)  # of flat-spin: 5.191 min
+
+
+@pytest.mark.slow
+def test_within_the_angle_the_momentum_stays():
+    """Newton's equations: from then on H is within the angle of its end, and a turn of the nutation before it was not."""
+    D, arguments = np.array([1.5, 1.8, 2.2]), (1.5, (0.5, 0.1, 0.1), (0.2, 0.3, 1), 3, 2)
+    w = [0.3, 0.1, 1.0]
+    found = stabilab.flat_spin(load(Scene(Body(D.tolist(), WHOLE), DamperMass(*arguments, WHOLE)), {"omega": w}), "14 deg")
+    end, settles = np.array(found.rotations[found.end].momentum), found.settles.at
+    rate, n, r, B, mu = newtons_rates(D, *arguments, whole=WHOLE)
+    times = np.linspace(0, settles + 20, 800)
+    y = solve_ivp(rate, (0, times[-1]), [*w, 0, 0], "DOP853", times, rtol=1e-8, atol=1e-10).y.T
+    rho = r + y[:, 3:4] * n
+    H = y[:, :3] @ B + mu * np.cross(rho, y[:, 4:] * n + np.cross(y[:, :3], rho))
+    angle = np.degrees(np.arccos(H @ end / np.linalg.norm(H, axis=1) / np.linalg.norm(end)))
+    assert angle[times > settles].max() < 14 < angle[times < settles].max()
 
 
 def test_a_body_of_revolution_ends_on_a_circle_whose_point_the_phase_decides():
