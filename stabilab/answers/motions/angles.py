@@ -13,7 +13,7 @@ their cosine vanishes."""
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -38,6 +38,8 @@ from ..caveats import answered
 from ..kinds import kind_of
 from ..limit import AXES, Momentum, asked, pointing_bound
 from ..motion import motion
+from ..simulate import simulated
+from .nutation import between, nutation_of
 
 STEPS = 300_000  # of a run, each of which is searched for roots
 BY_CONE = Sentence("angles-by-cone", "no torque: the angular momentum stays, and each axis keeps to its cone "
@@ -98,6 +100,33 @@ def angles(scene: Given, state: Start | None = None, axes: Sequence[str] = "xyz"
     result = for_all_time(case.scene, case.state, exact, vectors) if case.scene.plain else None
     momentum, apart, over, level, reason = result or _over_the_span(case, vectors, start)
     return answered(Angles(tuple(axes), momentum, apart, over, level, reason=reason), case)
+
+
+# --- Over time
+@dataclass(frozen=True)
+class Leaning:
+    """t: (n,) s; angle: (n,) rad of a body axis to the angular momentum, or to the upward vertical; apart:
+    (n,) rad to the direction of the axis in space at t = 0, None where the angular momentum stays and for the
+    vertical."""
+
+    t: np.ndarray
+    angle: np.ndarray
+    apart: np.ndarray | None = None
+
+
+def leaning(scene: Any, state: Float3, blocks: Mapping[str, Any], times: np.ndarray, axis: Exact3,
+            vertical: bool = False) -> Leaning:
+    """The angles of an axis, a unit vector along the principal axes, along a run from three rates and other
+    blocks, at the times (n,) that it reaches; vertical: to the upward vertical, of a scene that has one."""
+    v = np.array([float(a) for a in axis])
+    if vertical or Momentum.made(scene).stays:
+        run = simulated(scene, state, times, blocks)
+        return Leaning(run.t, between(-run.state["gamma"], v) if vertical
+                       else nutation_of(scene, run.state, axis))
+    run = simulated(scene, state, times, blocks, attitude="quaternion")
+    now = to_space(np.roll(run.state["quaternion"], 1, axis=-1), v)
+    apart = between(now, now[int(np.argmin(np.abs(run.t)))]) if len(now) else None
+    return Leaning(run.t, nutation_of(scene, run.state, axis), apart)
 
 
 # --- For all times
@@ -238,11 +267,7 @@ def _angles(scene: AnyScene, equations: Equations, origin: np.ndarray, states: n
     for vector in vectors:
         axis = np.array([float(v) for v in vector])
         now, begun = to_space(states[:, at["attitude"]], axis), to_space(origin, axis)
-        momentum.append(_between(H, axis) if pole is None else _between(now, pole))
-        apart.append(_between(now, begun))
+        momentum.append(between(H, axis) if pole is None else between(now, pole))
+        apart.append(between(now, begun))
     return np.stack(momentum, axis=1), np.stack(apart, axis=1)
 
-
-def _between(vectors: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """(n,) angles of vectors (n, 3) to another, without loss where these are small."""
-    return np.arctan2(np.linalg.norm(np.cross(vectors, other), axis=1), vectors @ other)

@@ -3,7 +3,6 @@ vertical."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -11,13 +10,11 @@ import numpy as np
 
 from ...answers.attitude import attitude
 from ...answers.limit import Momentum
-from ...answers.motions.angles import for_all_time
+from ...answers.motions.angles import Leaning, for_all_time, leaning
 from ...answers.motions.nutation import BodyAxis, axis_at_start, axis_named, between, nutation_of
-from ...answers.simulate import simulated
 from ...case.given import Given
 from ...errors import InputError
 from ...numbers.vectors import Exact3
-from ...physics.states import to_space
 from ...physics.symmetric_top import SymmetricTop
 from .. import style
 from ..units import SHORT, number, with_unit
@@ -36,22 +33,13 @@ BOUNDS: dict[str, Any] = {"color": style.VIOLET, **EXTREME}
 POINTING_BOUND: dict[str, Any] = {"color": style.BLACK, **EXTREME}
 END: dict[str, Any] = {"color": style.BLUE, "linewidth": 1.2, "linestyle": "--"}
 FOLD: dict[str, Any] = {"color": style.GREY, "linewidth": 1.3, "linestyle": (0, (4, 2))}
-TIMES = {"leaves": ("beyond {angle} from the minor axis", {"color": style.GREY, "linestyle": ":"}),
-         "crosses": ("separatrix crossed", {"color": style.BLACK, "linestyle": "-."}),
-         "settles": ("within {angle} of its end", {"color": style.GREY, "linestyle": "-"}),
-         "tenth": ("a tenth of the departure", {"color": style.GREY, "linestyle": "-"})}
+TIMES: dict[str, tuple[str, dict[str, Any]]] = {
+    "leaves": ("beyond {angle} from the minor axis", {"color": style.GREY, "linestyle": ":"}),
+    "crosses": ("separatrix crossed", {"color": style.BLACK, "linestyle": "-."}),
+    "settles": ("within {angle} of its end", {"color": style.GREY, "linestyle": "-"}),
+    "tenth": ("a tenth of the departure", {"color": style.GREY, "linestyle": (0, (5, 1, 1, 1))})}
 SMALL = 0.2  # rad, of a departure that a time constant belongs to
 FLAT, AROUND = 1e-7, 0.02  # rad: an angle that varies by less stays; what is shown about it
-
-
-@dataclass(frozen=True)
-class Leaning:
-    """t: (n,) s; angle: (n,) rad to the angular momentum, or to the vertical; apart: (n,) rad to the
-    direction of the axis in space at the start, None where the angular momentum stays."""
-
-    t: np.ndarray
-    angle: np.ndarray
-    apart: np.ndarray | None = None
 
 
 def nutation(case: Given | Subject, state: Any = None, ax: Axes | None = None, span: Any = None,
@@ -75,7 +63,7 @@ def nutation(case: Given | Subject, state: Any = None, ax: Axes | None = None, s
     vector = of.along if top is None else top.direction
     name = _name(item, of) if top is None else "axis of the top"
     low, high = item.seen
-    run = leaning(item, vector, np.linspace(low, high, FINE), top is not None)
+    run = _leaning(item, vector, np.linspace(low, high, FINE), top is not None)
     (time_unit, per_time), (angle_unit, per) = scale.time(high - low), scale.angle
     with canvas.on(ax, size) as target:
         t, rows = run.t * per_time, []
@@ -107,26 +95,17 @@ def _name(item: Subject, of: BodyAxis) -> str:
     return (item.axes.signed(of.number, -1) if of.number else of.name).replace("-", "−")
 
 
-def leaning(item: Subject, axis: Exact3, times: np.ndarray, vertical: bool = False) -> Leaning:
-    """The angles of an axis, a unit vector along the principal axes, at the times, or as many as a run
-    reaches; vertical: to the upward vertical."""
+def _leaning(item: Subject, axis: Exact3, times: np.ndarray, vertical: bool) -> Leaning:
+    """The angles at the times, or as many as a run reaches; without a torque by the rates that other pictures
+    show, too, where doubles lose them as well."""
     scene: Any = item.scene
-    v = np.array([float(a) for a in axis])
-    stays = Momentum.made(scene).stays
-    if scene.plain and stays:
+    if scene.plain and Momentum.made(scene).stays:
         t, omega = path(item, float(times[0]), float(times[-1]))
         return Leaning(t, nutation_of(scene, {"omega": omega}, axis))
-    if vertical or stays:
-        run = simulated(scene, item.state, times, item.blocks)
-        if vertical:
-            return Leaning(run.t, between(-run.state["gamma"], v))
-        return Leaning(run.t, nutation_of(scene, run.state, axis))
-    run = simulated(scene, item.state, times, item.blocks, attitude="quaternion")
-    now = to_space(np.roll(run.state["quaternion"], 1, axis=-1), v)
-    if len(now) < 2:
+    run = leaning(scene, item.state, item.blocks, times, axis, vertical)
+    if len(run.t) < 2:
         raise InputError("plot: the motion cannot be followed: the run stopped at its start")
-    begun = now[int(np.argmin(np.abs(run.t)))]
-    return Leaning(run.t, nutation_of(scene, run.state, axis), between(now, begun))
+    return run
 
 
 # --- The curve, and what is marked beside it
