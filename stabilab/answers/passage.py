@@ -42,9 +42,10 @@ from ..integrate.to_heyoka import TAYLOR_TOLERANCE
 from ..numbers.exact import precise
 from ..numbers.vectors import CYCLE, Exact3, Float3
 from ..physics.coefficients import limits_of
+from ..physics.effects import effect_class
 from ..physics.equations import Equations, derive, rotation
-from ..physics.own_unit import in_unit, mass_unit, own_unit
-from ..physics.scene import AnyScene, Scene, slices
+from ..physics.own_unit import in_unit, mass_unit, own_unit, rows_in_unit
+from ..physics.scene import AnyScene, Rows, Scene, euler_coefficients, rates_of, slices
 from ..physics.states import equations_and_start, moved_row, to_space
 from ..physics.to_numpy import Form, form, to_numpy
 from ..reasons import Quantity, Reasoned, Sentence
@@ -231,6 +232,7 @@ RUN_STEPS = 300_000  # of each of the two runs
 MOVED = 2.0  # places by which the second run's start is moved
 WIDER = 4.0  # times what the two runs differ by
 ROUNDING = 2.0**-50  # relative, of a time that both find alike
+LOOK = 32  # steps after which a run that is one of many looks for its first zero: it may be short
 VAGUE = 1e-6  # of a time: two runs that differ by more may have met the limit by rounding alone
 HIGHER = Fraction(1, 2**44)  # of a limit: far beyond the rounding of a motion that settles there
 FARTHEST = 10**300  # squares of rates that no run in doubles reaches
@@ -270,55 +272,76 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
 
 
 def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float = math.inf,
-             steps: int = RUN_STEPS) -> tuple[float, float]:
+             steps: int = RUN_STEPS, torque: Float3 | None = None, wheel: Float3 | None = None
+             ) -> tuple[float, float]:
     """(time of the first crossing by one run, inf where none was found; the time until which none was): no
     word on their error.
 
-    scene: wheel and torque; state: three floats; t_max: the scene's time.
+    scene: wheel and torque; state: three floats; t_max: the scene's time. torque (N m), wheel (N m s): in
+    place of the scene's, where many are compared: no scene is made of them.
     """
-    forms, start, rates, unit = _search(scene, state, limit)
+    forms, start, rates, unit = _search(scene, state, limit, torque, wheel)
     end = t_max * unit if math.isfinite(t_max) else 1e300
-    result = zeros_passed(forms, start, rates, end, steps, first=True)
+    result = zeros_passed(forms, start, rates, end, steps, first=True, look=LOOK)
     if result.first is not None:
         return result.first / unit, math.inf
     return math.inf, t_max if not result.reason and math.isfinite(t_max) else result.t / unit
 
 
-def _search(scene: AnyScene, start: Sequence[float], limit: Limit) -> tuple[Form, np.ndarray, Any, float]:
+def _search(scene: AnyScene, start: Sequence[float], limit: Limit, torque: Float3 | None = None,
+            wheel: Float3 | None = None) -> tuple[Form, np.ndarray, Any, float]:
     """(rates followed by what vanishes at the limit, in the motion's own unit of rates; the start and its
     rates in it; that unit)."""
+    if torque is not None and (limit.angular or not scene.plain):
+        scene, torque = _with(scene, torque, wheel), None
     if limit.angular or not scene.plain:
         equations, state, unit, expressions = _asked(scene, start, limit)
         with np.errstate(all="ignore"):
             rates = to_numpy(equations)(state)
         return form(equations, (*equations.rhs, *expressions)), state, rates, unit
-    own, unit, state = _in_own_unit(scene, start)
-    return (_quadratic(own, limit.parts, Fraction(unit) ** 2), state, own.quadratic().rate(state.tolist()),
-            unit)
+    rows, unit, state = _in_own_unit(scene, start, torque, wheel)
+    return _quadratic(rows, limit.parts, Fraction(unit) ** 2), state, rates_of(rows, state.tolist()), unit
+
+
+def _with(scene: Scene, torque: Float3, wheel: Float3 | None) -> Scene:
+    """The scene under a torque in place of its own, and with a momentum where one is given, in doubles."""
+    replaced = {"constant_torque": torque} | ({} if wheel is None else {"gyrostat": wheel})
+    return Scene(scene.body, *(effect for effect in scene.effects if effect.name not in replaced),
+                 *(effect_class(name)(tuple(map(Fraction, vector))) for name, vector in replaced.items()))
 
 
 def largest_rate(scene: AnyScene, state: Sequence[float], until: float, budget: int) -> tuple[float, float]:
     """(largest |omega| from 0 to `until`, rad/s; the time that the run reached, s): at its ends and where it
     is stationary."""
-    own, unit, start = _in_own_unit(scene, state)
-    rates = own.quadratic().rate(start.tolist())
-    run = zeros_passed(_quadratic(own), start, rates, until * unit, budget)
+    rows, unit, start = _in_own_unit(scene, state)
+    run = zeros_passed(_quadratic(rows), start, rates_of(rows, start.tolist()), until * unit, budget)
     sizes = [float(np.linalg.norm(item)) for item in (start, run.state, *run.states)]
     return max(sizes) * unit, run.t / unit
 
 
-def _in_own_unit(scene: AnyScene, state: Sequence[float]) -> tuple[AnyScene, float, np.ndarray]:
-    """(the scene in the motion's own unit of rates, that unit, the start in it).
+def _in_own_unit(scene: AnyScene, state: Sequence[float], torque: Float3 | None = None,
+                 wheel: Float3 | None = None) -> tuple[Rows, float, np.ndarray]:
+    """(coefficients of the rates in the motion's own unit of rates, that unit, the start in it).
 
     In the unit of a feeble torque alone the events of the numbers would not be found."""
-    unit = own_unit(scene, state, scene.quadratic().rate(list(state)))
-    return in_unit(scene, unit, mass_unit(scene)), unit, np.array(state, float) / unit
+    rows = scene.quadratic().coefficients
+    if torque is not None:
+        kappa, rho, sigma, _ = rows
+        rows = euler_coefficients(scene.body.exact, kappa, wheel or (0.0,) * 3, torque)
+        rows = rows if wheel else (kappa, rho, sigma, rows[3])
+    unit = own_unit(scene, state, rates_of(rows, list(state)))
+    scaled = rows_in_unit(rows, unit)
+    if scaled is None:  # says which number leaves the range of doubles
+        scene = scene if torque is None else _with(scene, torque, wheel)
+        scaled = in_unit(scene, unit, mass_unit(scene)).quadratic().coefficients
+    return scaled, unit, np.array(state, float) / unit
 
 
-def _quadratic(scene: AnyScene, parts: Sequence[Any] = (), square: Fraction = Fraction(1)) -> Form:
-    """The rates of a scene of wheel and torque, and the limit's parts over the square of the unit."""
+def _quadratic(rows: Rows, parts: Sequence[Any] = (), square: Fraction = Fraction(1)) -> Form:
+    """The rates of a scene of wheel and torque with these coefficients, and the limit's parts over the square
+    of the unit."""
     state, symbols, expressions = _structure(len(parts))
-    numbers = [*sum(zip(*scene.quadratic().coefficients), ())]
+    numbers = [*sum(zip(*rows), ())]
     for terms, largest in parts:
         numbers += [*_products(terms), float(min(largest / square, FARTHEST))]
     return Form(state, expressions, symbols, tuple(numbers))

@@ -353,7 +353,7 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
 
     def time(azimuth: float) -> tuple[float, float]:
         """The earliest of the torques there, and until when none of them was followed."""
-        rows = [run_once(tilted(scene, cone.at(azimuth, sizes)), state, limit, steps=AZIMUTH_STEPS)
+        rows = [run_once(scene, state, limit, steps=AZIMUTH_STEPS, torque=cone.at(azimuth, sizes).tolist())
                  for sizes in cone.corners]
         return min(t for t, _ in rows), min(until for _, until in rows)
     tried: Tried = []
@@ -370,7 +370,7 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     if np.isfinite(times).any():
         azimuth = float(azimuths[np.argmin(times)])
         torque = min((cone.at(azimuth, sizes) for sizes in cone.corners), key=lambda item: run_once(
-            tilted(scene, item), state, limit, steps=AZIMUTH_STEPS)[0])
+            scene, state, limit, steps=AZIMUTH_STEPS, torque=item.tolist())[0])
         # by runs: the validated steps of a proof take a machine ten seconds to compile, which nobody who asks
         # for the first time awaits
         first = time_to(tilted(scene, torque), state, **question, exact=exact, work=0)
@@ -403,7 +403,7 @@ def spread(scene: Scene, state: Sequence[float], cone: Cone, ask: dict[str, Any]
         return Spread(cone.angle, cone.subject, len(torques), fates=tuple(result.most_common()),
                       within=cone.within)
     limit = asked(scene, **ask)
-    time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=AZIMUTH_STEPS)
+    time = lambda torque: run_once(scene, state, limit, steps=AZIMUTH_STEPS, torque=torque.tolist())
     times, ends = map(list, zip(*map(time, torques)))
     followed, untilted = min(ends), None
     if followed < math.inf:  # a run ended early: as long as the torque itself takes, or not
@@ -469,7 +469,7 @@ def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
     def row(angle: float) -> tuple[float, float, float]:
         wider = replace(cone, angle=angle, parts=tuple(
             part._replace(angle=angle) if part.angle else part for part in cone.parts))
-        times = [run_once(tilted(scene, wider.at(azimuth, sizes)), state, limit, steps=FEW)[0]
+        times = [run_once(scene, state, limit, steps=FEW, torque=wider.at(azimuth, sizes).tolist())[0]
                  for sizes in cone.corners for azimuth in EDGE[::len(EDGE) // SIDES]]
         sure = stays_below(scene, state, limit.least_rate(), *wider.reach()) if torque_axis(scene) else 0.0
         return min(times), max(times), sure

@@ -73,21 +73,22 @@ def _columns(zeros: Sequence[tuple[float, int, np.ndarray]],
 
 def zeros_passed(forms: Form, state: np.ndarray, rates: np.ndarray | Sequence[float], t_end: float,
                  steps: int, tolerance: float = TAYLOR_TOLERANCE, first: bool = False,
-                 whole: bool = False) -> Passed:
+                 whole: bool = False, look: int = TOGETHER) -> Passed:
     """The motion from `state` (N,) at t = 0 to t_end, of either sign, and the zeros on its way of those
     expressions of a form that stand behind its N rates; those of the start itself do not count.
 
     rates: (N,) near the start; steps: after so many the run is given up; first: it ends soon after the first
-    zero; whole: it is given up as soon as it shows that it will not come to t_end (`guard`).
+    zero; whole: it is given up as soon as it shows that it will not come to t_end (`guard`). look: steps
+    until what was passed is first looked at; later looks are a quarter of the way apart, up to TOGETHER.
     """
     with np.errstate(all="ignore"):
         if heyoka_available():
             return _by_taylor(forms, state, float(t_end), steps, tolerance, first, whole,
-                              _longest(rates, state))
+                              _longest(rates, state), look)
         return _by_scipy(forms, state, float(t_end), steps, tolerance, first, whole)
 
 
-def _by_taylor(forms, state, t_end, steps, tolerance, first, entire, longest) -> Passed:
+def _by_taylor(forms, state, t_end, steps, tolerance, first, entire, longest, look) -> Passed:
     parts, done, noted, why, size = [], 0, 0, None, len(forms.state)
     guard = Guard(t_end, steps, SETTLED, PATIENCE)
     with taylor_events(forms, tolerance) as (integrator, result):
@@ -95,7 +96,7 @@ def _by_taylor(forms, state, t_end, steps, tolerance, first, entire, longest) ->
         integrator.state[:] = state
         while True:
             outcome, _, _, taken, *_ = integrator.propagate_until(
-                t_end, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
+                t_end, max_steps=min(TOGETHER, max(look, done // 4), steps - done), max_delta_t=longest)
             done += taken
             met = [zero for zero in result if zero[0] != 0 and np.isfinite(zero[2]).all()]
             result.clear()

@@ -12,6 +12,7 @@ an axis. Numbers of a few digits, and ratios, mean exactly what they say.
 """
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -41,6 +42,8 @@ LONG = 230  # bits of a denominator that only a rounded root has
 ULP = Fraction(1, 1 << 52)
 DOUBLES = Fraction(1, 1 << 48)  # of the largest number: what a rotation in doubles leaves
 MAX_ZEROED = Fraction(1, 1 << 26)  # of a vector: a component that is as large is not made zero
+# a cosine far above that and its rounding; the size from which on products of doubles have all their digits
+OBLIQUE, TINY = 2.0**-20, 1e-250
 
 
 def rounding(values: Iterable[Number]) -> Fraction:
@@ -168,9 +171,18 @@ class PrincipalAxes(Rounded):
                 else tuple(sum(self.axes[i][j] * vector[i] for i in range(3)) for j in range(3)))
 
 
+def clearly_oblique(vector: Sequence[Number], other: Sequence[Number]) -> bool:
+    """Whether doubles show that two vectors are far from right angles, so that `without_trace` leaves the
+    first as it is."""
+    terms = [float(v) * float(o) for v, o in zip(vector, other)]
+    return abs(sum(terms)) > OBLIQUE * math.hypot(*map(float, vector)) * math.hypot(*map(float, other)) > TINY
+
+
 def without_trace(vector: Exact3, other: Exact3) -> Exact3:
     """A vector without the trace along another one that roundings leave where the two are at right angles:
     those of irrational axes, and those that the digits of the two show."""
+    if clearly_oblique(vector, other):
+        return vector
     level, size = dot(vector, other), dot(other, other)
     if not level:
         return vector

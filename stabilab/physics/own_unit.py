@@ -20,11 +20,12 @@ from typing import Any
 from ..errors import InputError
 from ..numbers.vectors import Number
 from .effects.base import Effect
-from .scene import AnyScene, Body, ScaledGyrostat, Scene
+from .scene import AnyScene, Body, Rows, ScaledGyrostat, Scene
 
 # exponents between which the unit stays: the control is at most 16 times coarser than asked
 SLOW, FAST = -4, 20
 LIGHT, HEAVY = 2.0**-200, 2.0**200  # moments whose squares underflow beside `compiled.FEATHER`, or overflow
+TINY, HUGE = 2.0**-900, 2.0**900  # between these a power of two changes no digit of a double
 ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
 
 # of the units of rate and of mass in an effect's strength
@@ -123,6 +124,17 @@ def in_unit(scene: AnyScene, unit: float | Fraction, mass: float | Fraction = 1.
         raise InputError(f"state: in the unit of rates of this size, {unit:.1e}, a number of the scene "
                          "leaves the range of doubles, and a run in doubles does not follow the motion "
                          f"({error})") from None
+
+
+def rows_in_unit(rows: Rows, unit: float) -> Rows | None:
+    """The coefficients (kappa, rho, sigma, m), doubles, of `in_unit`; None where one may leave their range:
+    within it a power of two is exact. The unit of mass changes none."""
+    kappa, *others = rows
+    if not TINY < unit * unit < HUGE:
+        return None
+    out = tuple(tuple(v / scale for v in row) for row, scale in zip(others, (unit, unit, unit * unit)))
+    usual = all(TINY < abs(v) < HUGE for row in (*others, *out) for v in row if v)
+    return (kappa, *out) if usual else None
 
 
 def _changed(scene: AnyScene, unit: float | Fraction, mass: float | Fraction) -> AnyScene:

@@ -234,6 +234,9 @@ def slices(names: Iterable[str]) -> dict[str, slice]:
     return out
 
 
+Rows: TypeAlias = tuple[Float3, ...]  # kappa, rho, sigma, m in doubles
+
+
 @dataclass(frozen=True)
 class QuadraticForm:
     """Coefficients of the rates; `symbol` is the letter of the state ("omega" or "x")."""
@@ -245,7 +248,7 @@ class QuadraticForm:
     symbol: str = "omega"
 
     @cached_property
-    def coefficients(self) -> tuple[tuple[float, ...], ...]:
+    def coefficients(self) -> Rows:
         """(kappa, rho, sigma, m), each rounded once to double."""
         return tuple(tuple(float(v) for v in row) for row in (self.kappa, self.rho, self.sigma, self.m))
 
@@ -254,9 +257,7 @@ class QuadraticForm:
         rows: tuple[Triple, ...] = (self.kappa, self.rho, self.sigma, self.m)
         if isinstance(x[0], float):
             rows = self.coefficients
-        kappa, rho, sigma, m = rows
-        return [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i,
-                (j, k) in enumerate(CYCLE)]
+        return rates_of(rows, x)
 
     def jacobian(self, x: Sequence[Number], w: Number = 1) -> list[list[Number]]:
         """3 x 3 nested list: derivative of rate i by component at x/w, times w; entries of the type of x."""
@@ -271,6 +272,13 @@ class QuadraticForm:
         return rows
 
 
+def rates_of(rows: Sequence[Triple], x: Sequence[Number]) -> list[Number]:
+    """The rates of a quadratic form with these rows (kappa, rho, sigma, m) at three numbers."""
+    kappa, rho, sigma, m = rows
+    return [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i,
+            (j, k) in enumerate(CYCLE)]
+
+
 def euler_form(inertia: Exact3, momentum: Exact3, torque: Exact3) -> QuadraticForm:
     """D omega' = (D omega + lambda) x omega + M as rates of omega (theory: Euler's equations of a gyrostat).
     """
@@ -280,6 +288,20 @@ def euler_form(inertia: Exact3, momentum: Exact3, torque: Exact3) -> QuadraticFo
         rho=tuple(lam[j] / D[i] for i, (j, k) in enumerate(CYCLE)),
         sigma=tuple(-lam[k] / D[i] for i, (j, k) in enumerate(CYCLE)),
         m=tuple(torque[i] / D[i] for i in range(3)), symbol="omega")
+
+
+def euler_coefficients(inertia: Exact3, kappa: Float3, momentum: Float3, torque: Float3) -> Rows:
+    """`coefficients` of `euler_form` of a momentum and a torque in doubles, to the same bits: no fraction is
+    reduced, which for moments of many digits takes most of a short run. kappa: the form's, of the body alone.
+    """
+    sizes = [d.as_integer_ratio() for d in inertia]
+
+    def over(value: float, i: int, sign: int = 1) -> float:
+        n, d = value.as_integer_ratio()
+        return sign * n * sizes[i][1] / (d * sizes[i][0])  # of whole numbers: rounded once
+    return (kappa, tuple(over(momentum[j], i) for i, (j, k) in enumerate(CYCLE)),
+            tuple(over(momentum[k], i, -1) for i, (j, k) in enumerate(CYCLE)),
+            tuple(over(torque[i], i) for i in range(3)))
 
 
 def scaled_form(a: Fraction, b: Fraction, mu: Exact3) -> QuadraticForm:

@@ -61,7 +61,9 @@ def _found(searches: Sequence[Search], band: Band, unit: Fraction) -> bool:
 def _open(threshold: Threshold, band: Band, unit: float) -> np.ndarray:
     """(n,) whether each step may reach it."""
     scale = np.array([unit] * 3 + [1.0] * (band.radii.shape[1] - 3))  # a direction has no unit
-    scaled = Band(band.times, band.polynomials / scale[:, None], band.radii / scale)
+    result = np.zeros(len(band.radii), bool)
+    near = np.flatnonzero(_near(threshold, band, scale))
+    scaled = Band(band.times, band.polynomials[near] / scale[:, None], band.radii[near] / scale)
     if threshold.linear:
         rows, radii, _ = scaled.along(threshold.terms[0][1])
     else:
@@ -69,12 +71,23 @@ def _open(threshold: Threshold, band: Band, unit: float) -> np.ndarray:
     sign = -1.0 if threshold.falls else 1.0
     rows, largest = sign * rows, sign * float(threshold.limit)
     radii = radii + BLUR * np.abs(rows).sum(axis=1) + 2.0**-50 * abs(largest)
-    result = np.zeros(len(rows), bool)
     # most steps are surely below at once, the others are divided
-    open_at = np.flatnonzero((rows @ bernstein_of(rows.shape[1] - 1, 1).T).max(axis=1) + radii >= largest)
+    open_at = np.flatnonzero((rows @ bernstein_of(rows.shape[1] - 1, 1).T).max(axis=1, initial=-math.inf)
+                             + radii >= largest)
     values = rows[open_at] @ bernstein_of(rows.shape[1] - 1, PIECES).T
-    result[open_at] = values.max(axis=1, initial=-math.inf) + radii[open_at] >= largest
+    result[near[open_at]] = values.max(axis=1, initial=-math.inf) + radii[open_at] >= largest
     return result
+
+
+def _near(threshold: Threshold, band: Band, scale: np.ndarray) -> np.ndarray:
+    """(n,) whether the sizes of a step's coefficients, of which sums are no less than any Bernstein
+    coefficient, leave open that it reaches the limit."""
+    if threshold.falls:
+        return np.ones(len(band.radii), bool)
+    sizes = (np.abs(band.polynomials).sum(axis=2) + band.radii) / scale
+    reach = [(float(c), sizes[:, :len(a)] @ np.abs([float(v) for v in a])) for c, a in threshold.terms]
+    bound = reach[0][1] if threshold.linear else sum(c * row * row for c, row in reach)
+    return bound * (1 + 2.0**-20) >= float(threshold.limit)  # far more than all that is rounded here
 
 
 @lru_cache(maxsize=4)

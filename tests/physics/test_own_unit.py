@@ -10,10 +10,13 @@ from stabilab.physics.own_unit import (
     exact_unit,
     exponent,
     far_exponent,
+    in_unit,
     natural,
     own_exponent,
     own_unit,
+    rows_in_unit,
 )
+from stabilab.physics.scene import euler_coefficients
 
 NUMBERS = [1.0, 0.5, 3.0, 1 - 2.0**-53, 5e-324, 2.0**1023, 1, 7, -8, Fraction(1, 3), Fraction(3, 4),
            Fraction(4, 3), Fraction(-7, 8), Fraction(10)**400, Fraction(1, 10**400), Fraction(2**200 - 1, 2**200)]
@@ -67,3 +70,16 @@ def test_in_natural_units_moment_and_torque_are_within_a_root_of_two_of_one(seed
     assert Fraction(1, 2) <= mean * mean <= 2  # the nearest power of two
     assert Fraction(1, 2) <= torque / mean <= 2
     assert max(map(abs, M)) / (D.sum() / 3) == pytest.approx(float(torque / mean) * unit**2, rel=1e-14)
+
+
+@pytest.mark.parametrize("unit", [2.0**-70, 0.5, 1.0, 2.0**33])
+def test_coefficients_in_a_unit_are_those_of_the_scene_in_it(unit):
+    """To the last bit: a power of two rounds nothing. Where it may, at the ends of the range, there are none.
+    """
+    scene = Scene(Body(("1/3", "0.7", 0.9)), Gyrostat((0.3, 0, -0.1)), ConstantTorque((0.2, "1/7", 0)))
+    rows = scene.quadratic().coefficients
+    assert rows_in_unit(rows, unit) == in_unit(scene, unit, 4.0).quadratic().coefficients
+    assert rows_in_unit(rows, 2.0**-600) is None and rows_in_unit(rows, 2.0**600) is None
+    halves = Scene(scene.body, Gyrostat((0.5, 0, -0.25)), ConstantTorque((0.75, 0, 0)))
+    assert (euler_coefficients(scene.body.exact, rows[0], (0.5, 0.0, -0.25), (0.75, 0.0, 0.0))
+            == halves.quadratic().coefficients)

@@ -9,10 +9,10 @@ its pulses are short beside the motion.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeAlias, TypeGuard
@@ -26,7 +26,7 @@ from ...case.uncertain import Uncertain
 from ...errors import Caveat, InputError, Kind, without
 from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
-from ...numbers.vectors import CYCLE, Exact3, Number, Triple, dot
+from ...numbers.vectors import CYCLE, Exact3, Number, dot
 from ...orbit.result import Fate
 from ...physics.scene import Scene, torque_axis
 from ...reasons import Sentence, as_reason
@@ -75,16 +75,14 @@ def helpers(scenario: Scenario, torque: Exact3, others: Sequence[Any],
     """
     if not any(torque):
         return ()
-    turned = [(t.name, scenario.axes.turned(t.torque)) for t in others]
-    alone = [((name, arm),) for name, arm in turned if any(arm)]
-    printed = [item for chosen in alone if (item := _stops(scenario, torque, chosen))]
+    alone = [(t.name, arm) for t, arm in ((t, scenario.arm(t)) for t in others) if any(arm)]
+    printed = _stopping(scenario, torque, Sets(alone, 1))
     done = {name for helper, _ in printed for name in helper.thrusters}
-    pairs = [(*a, *b) for a, b in combinations(alone, 2)]
-    printed += _best_pairs(scenario, torque, [pair for pair in pairs if done.isdisjoint(dict(pair))])
+    printed += _best_pairs(scenario, torque, Sets([item for item in alone if item[0] not in done], 2))
     printed.sort(key=lambda entry: (entry[0].effect != "zero", len(entry[0].thrusters), entry[0].torque_left))
     tried = [_timed(scenario, helper, left, visited) for helper, left in printed[:MAX_HELPERS]]
     if all(helper.effect == "none" for helper in tried):
-        tried += _slowest(scenario, torque, (alone, pairs), visited)
+        tried += _slowest(scenario, torque, (Sets(alone, 1), Sets(alone, 2)), visited)
     tried.sort(key=_rank)
     return tuple([helper for helper in tried if helper.effect != "none"] or tried[:1])
 
@@ -130,48 +128,83 @@ def _stops(scenario: Scenario, torque: Exact3, chosen: Chosen) -> tuple[Helper, 
     return None
 
 
-def _best_pairs(scenario: Scenario, torque: Exact3, pairs: Sequence[Chosen]) -> list[tuple[Helper, Exact3]]:
+class Sets:
+    """Every thruster, or every pair, of those that may help: their names and torques. indices: (n, size) into
+    `alone`; arms: (n, size, 3) torques in doubles."""
+
+    def __init__(self, alone: Sequence[tuple[str, Exact3]], size: int) -> None:
+        self.alone = alone
+        self.indices = (np.arange(len(alone))[:, None] if size == 1
+                        else np.stack(np.triu_indices(len(alone), 1), axis=1))
+        self.arms = np.array([floats(arm) for _, arm in alone]).reshape(-1, 3)[self.indices]
+
+    def __iter__(self) -> Iterator[Chosen]:
+        return map(self.chosen, range(len(self.arms)))
+
+    def chosen(self, number: int) -> Chosen:
+        """One of them."""
+        return tuple(self.alone[i] for i in self.indices[number].tolist())
+
+
+def _stopping(scenario: Scenario, torque: Exact3, sets: Sets) -> list[tuple[Helper, Exact3]]:
+    """`_stops` of each thruster, of those whose torque lies, in doubles, along what is left, or along it
+    across an axis that is held."""
+    arms, full = sets.arms[:, 0], np.array(floats(torque))
+    across = np.abs(np.cross(arms, full))
+    size = np.linalg.norm(arms, axis=1)
+    room = ROUGH * (size + math.hypot(*full))
+    along = np.linalg.norm(across, axis=1) <= room * size
+    for i in scenario.held:
+        along |= across[:, i] <= room * np.abs(arms[:, CYCLE[i]]).max(axis=1)
+    return [item for number in np.flatnonzero(along).tolist()
+            if (item := _stops(scenario, torque, sets.chosen(number)))]
+
+
+def _best_pairs(scenario: Scenario, torque: Exact3, sets: Sets) -> list[tuple[Helper, Exact3]]:
     """As many helpers as are listed, of the pairs that leave the least torque: `_stops` of each."""
-    def least_of(torque: Sequence[float], arms: Sequence[Sequence[float]]) -> float:
-        none = _shares_left(torque, arms, _least_squares(torque, arms))
-        if math.hypot(*none) < ROUGH * sum(math.hypot(*arm) for arm in arms):
-            return 0.0
-        return min((abs(_shares_left(torque, arms, _onto_axis(torque, arms, i))[i]) for i in scenario.held),
-                   default=math.inf)
-
-    def least(torque: np.ndarray, arms: np.ndarray) -> np.ndarray:
-        return np.array([least_of(torque.tolist(), pair) for pair in arms.tolist()])
-
     out: list[tuple[Helper, Exact3]] = []
-    for bound, pair in _by_doubles(torque, pairs, least):
+    for bound, chosen in _by_doubles(torque, sets, partial(_left_by_pairs, scenario.held)):
         if sum(item.effect == "zero" or item.torque_left < bound for item, _ in out) >= MAX_HELPERS:
             break
-        if item := _stops(scenario, torque, pair):
+        if item := _stops(scenario, torque, chosen):
             out.append(item)
     return out
 
 
-def _shares_left(torque: Sequence[Number], arms: Sequence[Sequence[Number]],
-                 duty: Duty | None) -> Triple:
-    """The torque left, in doubles; infinite where rounding cannot make these shares of the time."""
-    if duty is None or not all(-ROUGH < u < 1 + ROUGH for u in duty):
-        return (math.inf,) * 3
-    return _left(torque, arms, duty)
+def _left_by_pairs(held: Sequence[int], torque: np.ndarray, arms: np.ndarray) -> np.ndarray:
+    """(n,) the least torque that pairs leave by the shares of `_stops`, in doubles; infinite where rounding
+    cannot make shares of the time of them. torque: (3,); arms: (n, 2, 3)."""
+    a, b = np.moveaxis(arms, (1, 2), (0, 1))
+    room = ROUGH * np.linalg.norm(arms, axis=-1).sum(axis=-1)
+
+    def left(*system: np.ndarray) -> np.ndarray:
+        p, q, r, s, x, y = system
+        det = p * s - q * r
+        alike = det * det <= float(NO_TORQUE_SQUARED) * (p * p + q * q) * (r * r + s * s)
+        u, v = (x * s - q * y) / det, (p * y - r * x) / det
+        shares = ~alike & (-ROUGH < u) & (u < 1 + ROUGH) & (-ROUGH < v) & (v < 1 + ROUGH)
+        return np.where(shares, torque[:, None] + (u * a + v * b), math.inf)
+
+    with np.errstate(all="ignore"):
+        none = left(dot(a, a), dot(a, b), dot(a, b), dot(b, b), -dot(a, torque), -dot(b, torque))
+        onto = [np.abs(left(a[j], b[j], a[k], b[k], *np.broadcast_arrays(-torque[j], -torque[k]))[i])
+                for i in held for j, k in [CYCLE[i]]]
+        return np.where(np.linalg.norm(none, axis=0) < room, 0.0,
+                        np.min(onto, axis=0, initial=math.inf) if onto else math.inf)
 
 
-def _by_doubles(torque: Exact3, sets: Sequence[Chosen], least: Callable[[Any, Any], Any]
-                ) -> list[tuple[float, Chosen]]:
+def _by_doubles(torque: Exact3, sets: Sets, least: Callable[[np.ndarray, np.ndarray], np.ndarray]
+                ) -> Iterator[tuple[float, Chosen]]:
     """(a bound that the torque left by a set does not fall below, the set), rising; without those that leave
-    an infinite one. sets: as many thrusters in each; least(torque (3,), arms (n, thrusters, 3)): (n,) the
-    least torque that is left, in doubles."""
-    if not sets:
-        return []
-    rows: dict[int, list[float]] = {}  # many sets share an arm, and to round it takes long
-    arms = np.array([[rows.get(id(arm)) or rows.setdefault(id(arm), list(map(float, arm)))
-                      for _, arm in chosen] for chosen in sets])
-    bounds = least(np.array(torque, float), arms) - ROUGH * np.linalg.norm(arms, axis=-1).sum(axis=-1)
-    return sorted(((bound, chosen) for bound, chosen in zip(bounds.tolist(), sets) if bound < math.inf),
-                  key=lambda item: item[0])
+    an infinite one. least(torque (3,), arms (n, size, 3)): (n,) the least torque left, in doubles."""
+    if not len(sets.arms):
+        return
+    bounds = (least(np.array(torque, float), sets.arms)
+              - ROUGH * np.linalg.norm(sets.arms, axis=-1).sum(axis=-1))
+    for number in np.argsort(bounds, kind="stable").tolist():
+        if bounds[number] == math.inf:
+            return
+        yield float(bounds[number]), sets.chosen(number)
 
 
 def _left_in_the_box(torque: np.ndarray, arms: np.ndarray) -> np.ndarray:
@@ -231,10 +264,9 @@ def _solved(p: Number, q: Number, r: Number, s: Number, x: Number, y: Number) ->
             else ((x * s - q * y) / det, (p * y - r * x) / det))
 
 
-def _slowest(scenario: Scenario, torque: Exact3, sets: Sequence[Sequence[Chosen]],
+def _slowest(scenario: Scenario, torque: Exact3, sets: Sequence[Sets],
              visited: Outcome) -> list[Helper]:
-    """The thruster and the pair with the latest limit; without a limit those that leave the least torque.
-    sets: all thrusters, all pairs."""
+    """The thruster and the pair with the latest limit; without a limit those that leave the least torque."""
     out: list[tuple[float, Helper]] = []
     for many in sets:
         tried = _least_left(torque, many)
@@ -255,7 +287,7 @@ def _slowest(scenario: Scenario, torque: Exact3, sets: Sequence[Sequence[Chosen]
     return [helper for _, helper in out]
 
 
-def _least_left(torque: Exact3, sets: Sequence[Chosen]) -> list[tuple[Fraction, Chosen, Duty]]:
+def _least_left(torque: Exact3, sets: Sets) -> list[tuple[Fraction, Chosen, Duty]]:
     """(square of the torque that is left, thrusters, shares of time), the `TRIED` that leave the least."""
     out: list[tuple[Fraction, Chosen, Duty]] = []
     size = dot(torque, torque)
@@ -320,7 +352,7 @@ def stuck(case: Given, all_thrusters: bool = False, progress: Callable[[str], An
         case = each_firing(case)
     scenario, angle = scenario_of(case), None if tilt is None else angle_of(tilt)
     tasks = [Task(f"{case.name}: {' and '.join(t.name for t in chosen) or 'the torque of the case'}",
-                  "answers.stuck.ask:row_of", (case, tuple(map(case.thrusters.index, chosen)), angle))
+                  "answers.stuck.ask:row_of", (scenario, tuple(map(case.thrusters.index, chosen)), angle))
              for chosen in _chosen(case, scenario, all_thrusters)]
     if workers is None and len(tasks) < MANY_ROWS:
         workers = 1
@@ -334,9 +366,9 @@ def stuck(case: Given, all_thrusters: bool = False, progress: Callable[[str], An
     return Stuck(case.name, tuple(rows), principal, all_thrusters)
 
 
-def row_of(case: Case, firing: Sequence[int], angle: float | None) -> Row:
+def row_of(scenario: Scenario, firing: Sequence[int], angle: float | None) -> Row:
     """The row of the thrusters of a case with these numbers; angle: as of `stuck`, rad."""
-    return _row(scenario_of(case), tuple(case.thrusters[n] for n in firing), angle)
+    return _row(scenario, tuple(scenario.case.thrusters[n] for n in firing), angle)
 
 
 def each_firing(case: Case) -> Case:

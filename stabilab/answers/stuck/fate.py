@@ -17,7 +17,14 @@ import numpy as np
 from ...errors import InputError
 from ...numbers.exact import sqrt_fraction
 from ...numbers.polynomial import golden_section
-from ...numbers.principal import IDENTITY, NOTHING, PrincipalAxes, summed, without_trace
+from ...numbers.principal import (
+    IDENTITY,
+    NOTHING,
+    PrincipalAxes,
+    clearly_oblique,
+    summed,
+    without_trace,
+)
 from ...numbers.vectors import Exact3, Float3, Number, cross, dot
 from ...orbit.fate import REASONS, Basis
 from ...orbit.reduction import Reduction
@@ -26,7 +33,7 @@ from ...physics.effects import effect_class
 from ...physics.scene import Body, Scene, rests
 from ...reasons import Reason, Reasoned, Sentence
 from ...unreduced.enclosure import proved
-from ...unreduced.spin_up.follow import spin_up
+from ...unreduced.spin_up.follow import spin_up, spin_up_many
 from ...validation import came
 from ..kinds import kind_of, one
 from ..limit import Limit, asked
@@ -91,9 +98,22 @@ class Scenario:
         return Scene(self.body, effect_class("gyrostat")(wheel),
                      effect_class("constant_torque")(tuple(torque)))
 
+    @cached_property
+    def free(self) -> Scene:
+        """The body alone, of runs with any torque and momentum."""
+        return Scene(self.body)
+
+    @cached_property
+    def _arms(self) -> dict[str, Exact3]:
+        return {t.name: self.axes.turned(t.torque) for t in self.case.thrusters}
+
+    def arm(self, thruster: Any) -> Exact3:
+        """The torque of one thruster of the case, along the scene's axes."""
+        return self._arms[thruster.name]
+
     def torque(self, thrusters: Sequence[Any]) -> Exact3:
         """The whole torque while these thrusters fire, along the scene's axes."""
-        return summed([self.base, *(self.axes.turned(t.torque) for t in thrusters)])
+        return summed([self.base, *map(self.arm, thrusters)])
 
     def torque_in_file(self, thrusters: Sequence[Any]) -> Float3:
         """The same in the frame of the file; what a thruster alone gives is rounded once."""
@@ -218,7 +238,7 @@ def fate_under(scenario: Scenario, torque: Sequence[Fraction]) -> Fate:
     if rests(scene.quadratic(), scenario.state):
         return Fate.EQUILIBRIUM
     if kind_of(scene) == "off axis":
-        return spin_up(scene, scenario.start).fate
+        return Fate(spin_up_many(scene, [scenario.start]).fate[0])
     return one(scene).motion(scene, scenario.start, None, scenario.state).fate
 
 
@@ -237,8 +257,12 @@ def first_time(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[F
     if scenario.begins_at_limit:
         return 0.0
     # a run is one in doubles: long fractions would cost more than the run
-    torque, wheel = ([Fraction(float(v)) for v in vector] for vector in (torque, wheel or scenario.wheel))
-    t, until = run_once(scenario.scene(torque, wheel), scenario.start, scenario.exact_limit, t_max, SEARCHED)
+    moment, momentum = (tuple(map(float, vector)) for vector in (torque, wheel or scenario.wheel))
+    if clearly_oblique(momentum, moment):
+        motion = scenario.free, moment, momentum
+    else:  # the scene drops what roundings leave of right angles
+        motion = scenario.scene(*(tuple(map(Fraction, vector)) for vector in (moment, momentum))), None, None
+    t, until = run_once(motion[0], scenario.start, scenario.exact_limit, t_max, SEARCHED, *motion[1:])
     return t if until >= t_max else until
 
 

@@ -289,7 +289,34 @@ def test_doubles_rank_pairs_and_miss_none_that_exact_numbers_would_list(asked, m
     every = asked(text + tail).rows[0].helpers
     assert every == few and any(len(helper.thrusters) == 2 for helper in every)
     assert judged_of_few < sum(judged) / 2
-    assert len(ranked((1, 0, 0), [(("a", (-1, 0, 0)), ("b", (0, 1, 0)))], lambda *_: math.inf)) == 0
+    pair = ask.Sets([("a", (-1, 0, 0)), ("b", (0, 1, 0))], 2)
+    assert list(ranked((1, 0, 0), pair, lambda *_: np.full(1, math.inf))) == []
+
+
+def test_arrays_of_pairs_leave_what_shares_in_fractions_leave():
+    """Rational arms of few digits, so that some pairs are parallel, leave nothing or a torque on an axis
+    alone; every pair is solved in fractions here, by Cramer's rule."""
+    from stabilab.answers.stuck import ask
+    rng = np.random.default_rng(12)
+
+    def solved(p, q, r, s, x, y):
+        det = p * s - q * r
+        shares = ((x * s - q * y) / det, (p * y - r * x) / det) if det else (Fraction(2),) * 2
+        return shares if all(0 <= u <= 1 for u in shares) else None
+    arms, torque = rng.integers(-2, 3, (400, 2, 3)), rng.integers(-1, 2, 3)
+    found = ask._left_by_pairs((0, 2), torque.astype(float), arms.astype(float))
+    for (a, b), size in zip(arms.tolist(), found):
+        a, b, m = (list(map(Fraction, v)) for v in (a, b, torque.tolist()))
+        inner = lambda v, w: sum(x * y for x, y in zip(v, w))
+        none = solved(inner(a, a), inner(a, b), inner(a, b), inner(b, b), -inner(a, m), -inner(b, m))
+        left = lambda shares, m=m, a=a, b=b: [x + shares[0] * y + shares[1] * z for x, y, z in zip(m, a, b)]
+        if none and not any(left(none)):
+            expected = 0
+        else:
+            onto = [(i, solved(a[j], b[j], a[k], b[k], -m[j], -m[k])) for i, j, k in ((0, 1, 2), (2, 0, 1))]
+            expected = min((abs(left(shares)[i]) for i, shares in onto if shares), default=math.inf)
+        assert size == pytest.approx(float(expected), rel=1e-12, abs=1e-12)
+    assert len(set(np.sign(found))) == 2 and np.isinf(found).any()
 
 
 def test_doubles_leave_as_little_torque_in_the_box_of_shares_as_exact_numbers():
