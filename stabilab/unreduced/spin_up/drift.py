@@ -49,6 +49,7 @@ if TYPE_CHECKING:
 # --- Motions and a small change of each, step by step
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
 REVOLUTION = 40  # steps that a return takes, about
+NEXT, LAST = np.array([1, 2, 0]), np.array([2, 0, 1])  # of three components
 NO_GROWTH = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
 
 
@@ -58,6 +59,18 @@ def work(lanes: int) -> tuple[np.ndarray, np.ndarray]:
     memory = np.zeros(size + 8)
     start = -memory.ctypes.data // 8 % 8
     return memory[start:start + size], np.zeros(lanes, np.int64)
+
+
+def inner(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """(m,) scalar products of rows (m, 3): a sum along the rows of few takes longer than all the rest."""
+    x, y, z = (a * b).T
+    return x + y + z
+
+
+def largest(rows: np.ndarray) -> np.ndarray:
+    """(m,) the largest size in each of rows (m, 3)."""
+    x, y, z = np.abs(rows).T
+    return np.maximum(np.maximum(x, y), z)
 
 
 class Runs:
@@ -132,27 +145,27 @@ class Runs:
 
     def compare(self, rows, starts, twins, delays, apart):
         """Take note of how twins have gone apart, and say where they tell nothing (`Twins.compare`)."""
-        error = STEP_ERROR * self.rounded[rows] * np.sqrt((starts**2).sum(axis=1))
+        error = STEP_ERROR * self.rounded[rows] * np.sqrt(inner(starts, starts))
         return self.twins.compare(rows, starts, self.states[rows], twins, delays, apart, error)
 
     def rates(self, states: np.ndarray):
         """The rates of change at states (m, 3)."""
-        y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]
+        y, z = states.take(NEXT, axis=1), states.take(LAST, axis=1)
         c = self.coefficients
         return c[0] * y * z + c[1] * z + c[2] * y + c[3]
 
     def slopes(self, states, directions):
         """How the rates change along directions (m, 3)."""
-        y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]
-        v, w = directions[:, [1, 2, 0]], directions[:, [2, 0, 1]]
+        y, z = states.take(NEXT, axis=1), states.take(LAST, axis=1)
+        v, w = directions.take(NEXT, axis=1), directions.take(LAST, axis=1)
         c = self.coefficients
         return c[0] * (y * w + v * z) + c[1] * w + c[2] * v
 
     def slopes_back(self, states, weights):
         """The gradient of the rates' sum with weights (m, 3)."""
         c = [row * weights for row in self.coefficients[:3]]
-        y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]
-        return (c[0] * z + c[2])[:, [2, 0, 1]] + (c[0] * y + c[1])[:, [1, 2, 0]]
+        y, z = states.take(NEXT, axis=1), states.take(LAST, axis=1)
+        return (c[0] * z + c[2]).take(LAST, axis=1) + (c[0] * y + c[1]).take(NEXT, axis=1)
 
 
 class Twins:
@@ -168,12 +181,12 @@ class Twins:
         """(twins (m, 3), how far they are (m,)) of rows at their states; apart: relative to these, or to the
         natural rate."""
         unit = self._along(states)
-        across = self.ahead[rows] - unit * (self.ahead[rows] * unit).sum(axis=1)[:, None]
-        none = np.abs(across).max(axis=1) < kernel.LOST
+        across = self.ahead[rows] - unit * inner(self.ahead[rows], unit)[:, None]
+        none = largest(across) < kernel.LOST
         if none.any():
             other = np.cross(unit[none], np.roll(unit[none], 1, axis=1) + [0.0, 0.0, 0.1])
-            across[none] = kernel.LOST * other / np.sqrt((other**2).sum(axis=1))[:, None]
-        far = apart * _size(states) / np.abs(across).max(axis=1)
+            across[none] = kernel.LOST * other / np.sqrt(inner(other, other))[:, None]
+        far = apart * _size(states) / largest(across)
         return states + far[:, None] * across, far
 
     def compare(self, rows, starts, states, twins, delays, apart, error):
@@ -181,16 +194,16 @@ class Twins:
         passed the same place delays (m,) later. error (m,): of the places, in all, but for the growth.
         Returns (m,) where they tell nothing: nothing is noted there."""
         unit, change, printed = self._along(states), twins - states, np.ones(len(rows), bool)
-        speed, room = (self.rates(states) * unit).sum(axis=1), NO_GROWTH * _size(states)
+        speed, room = inner(self.rates(states), unit), NO_GROWTH * _size(states)
         # the twin where it was, or will be, beside the motion: to second order in the delay
         for _ in range(2):
-            more = np.where(speed > 0, -(change * unit).sum(axis=1) / speed, 0.0)
+            more = np.where(speed > 0, -inner(change, unit) / speed, 0.0)
             rate = self.rates(states + change)
             change, delays = change + more[:,
                                            None] * self.rates(states + change
                                                               + 0.5 * more[:, None] * rate), delays + more
             printed &= np.abs(more) * speed < room
-        size, first = np.abs(change).max(axis=1), np.sqrt((self.rates(starts)**2).sum(axis=1))
+        size, first = largest(change), np.sqrt(inner(*[self.rates(starts)] * 2))
         printed &= size < room
         yes = rows[printed]
         self.blur[yes] += (error * self.most[rows]
@@ -205,12 +218,12 @@ class Twins:
     def _along(self, states: np.ndarray):
         """Unit vectors along the motions (m, 3); zero where they hardly move."""
         rates = self.rates(states)
-        speed = np.sqrt((rates**2).sum(axis=1))
+        speed = np.sqrt(inner(rates, rates))
         return np.where((speed > kernel.STILL * _size(states))[:, None], rates / speed[:, None], 0.0)
 
 
 def _size(states: np.ndarray):
-    return np.maximum(np.abs(states).max(axis=1, initial=0.0), 1.0)
+    return np.maximum(largest(states), 1.0)
 
 
 # --- Many revolutions at once
@@ -268,24 +281,24 @@ class Returns:
         """(time since the section was passed, the angle turned since), (m,) each, to first order."""
         rates = self.runs.rates(places)
         bend = self.runs.slopes(places, rates)
-        late = (rates * normals).sum(axis=1) / (bend * normals).sum(axis=1)
-        return late, np.abs(late) * np.sqrt((bend**2).sum(axis=1) / (rates**2).sum(axis=1))
+        late = inner(rates, normals) / inner(bend, normals)
+        return late, np.abs(late) * np.sqrt(inner(bend, bend) / inner(rates, rates))
 
     def normals(self, states: np.ndarray):
         """Unit vectors across the motions at states (m, 3), toward where they bend: these states lie on the
         sections."""
         rates = self.runs.rates(states)
         bend = self.runs.slopes(states, rates)
-        bend -= rates * ((bend * rates).sum(axis=1) / (rates**2).sum(axis=1))[:, None]
-        return bend / np.sqrt((bend**2).sum(axis=1))[:, None]
+        bend -= rates * (inner(bend, rates) / inner(rates, rates))[:, None]
+        return bend / np.sqrt(inner(bend, bend))[:, None]
 
     def on_section(self, states, normals):
         """The nearest places on the sections: what is off them is rounding, which sums over many revolutions
         would gather."""
         for _ in range(2):
-            off = (self.runs.rates(states) * normals).sum(axis=1)
+            off = inner(self.runs.rates(states), normals)
             up = self.runs.slopes_back(states, normals)
-            states = states - up * (off / (up**2).sum(axis=1))[:, None]
+            states = states - up * (off / inner(up, up))[:, None]
         return states
 
     def first(self, states: np.ndarray):
@@ -299,14 +312,14 @@ class Returns:
             places[open_], passed = self.runs.carried(places[open_], np.full(open_.size, ENDLESS), 1)
             now[open_] += passed
             gone = places[open_] - states[open_]
-            far[open_] = np.fmax(far[open_], np.sqrt((gone**2).sum(axis=1)))
-            height = (self.runs.rates(places[open_]) * normals[open_]).sum(axis=1)
+            far[open_] = np.fmax(far[open_], np.sqrt(inner(gone, gone)))
+            height = inner(self.runs.rates(places[open_]), normals[open_])
             rows = open_[(before[open_] < 0) & (height >= 0)]
             before[open_] = height
             if rows.size:
                 late, _ = self._late(places[rows], normals[rows])
                 back, result, good = self(states[rows], normals[rows], now[rows] - late)
-                good &= np.sqrt(((back - states[rows])**2).sum(axis=1)) < CLOSED * far[rows]
+                good &= np.sqrt(inner(*[back - states[rows]] * 2)) < CLOSED * far[rows]
                 times[rows[good]], steps[rows[good]] = result[good], number
                 open_ = np.setdiff1d(open_, rows[good])
             if not open_.size:
@@ -357,7 +370,7 @@ def window(returns: Returns, states, counts, periods, steps) -> Window:
     alone."""
     sums, powers, _, _ = matrices()
     m = len(states)
-    normals, size = returns.normals(states), np.sqrt((states**2).sum(axis=1))
+    normals, size = returns.normals(states), np.sqrt(inner(states, states))
     matrix = (counts[:, None, None, None] ** powers[:, None, None].astype(float) * sums).sum(axis=1)
     x = np.zeros((m, NODES + 1, 4))
     x[:, :, :3] = states[:, None]
