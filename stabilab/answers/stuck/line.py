@@ -105,8 +105,9 @@ class Family:
         return self.fate(wheel, torque) in STEADY
 
     def reduction(self, wheel: Sequence[Fraction]) -> Reduction | None:
-        """About the torque's axis; None where the wheel has momentum along it."""
-        return reduce(self.scene(wheel))
+        """About the torque's axis; None where the wheel has momentum along it, about an axis of symmetry too,
+        whose uniform growth has a reduction of its own."""
+        return None if wheel[self.axis] else reduce(self.scene(wheel))
 
     def along(self, start: Sequence[Fraction], step: Sequence[Fraction], s: Fraction) -> Exact3:
         """start + s step."""

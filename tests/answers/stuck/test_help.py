@@ -271,6 +271,17 @@ def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(st
     assert row["margin_until"] == {"rate": None, "wheel": None, "torque": None} == row["margin"]
 
 
+@pytest.mark.parametrize("inertia", ["[5.0, 5.0, 9.0]", "[9.0, 9.0, 5.0]", "[12.0, 9.0, 5.0]"])
+def test_a_wheel_along_the_torque_leaves_no_separatrix_about_an_axis_of_symmetry_either(asked, inertia):
+    """By hand: with D1 = D2 and all momentum along axis 3, D3 omega3' = M. For three moments
+    (|H|^2/2 - D3 T)' = M l, which does not end either."""
+    text = CASE.replace("[12.0, 9.0, 5.0]", inertia).replace("axis = [1, 0, 0]", "axis = [0, 0, 1]")
+    row = asked(text).rows[0]
+    assert row.fate == "spin-up"
+    for name in ("wheel", "torque"):
+        assert row.margins[name].size is None and row.margins[name].reason.code == "wheel-along-torque"
+
+
 def test_doubles_rank_pairs_and_miss_none_that_exact_numbers_would_list(asked, monkeypatch):
     """All pairs judged in exact numbers, one by one, against those that doubles put in front."""
     from stabilab.answers.stuck import ask
