@@ -361,7 +361,9 @@ INLINED = {"chosen", "where", "on_all", "on_rows", "product_size", "about", "for
 BARRIERS = Kernel(sys.modules[__name__], "margins", 3.0, INLINED,
                   instead={"where": chosen, "either": both, "on_rows": on_all},
                   options={"allocating": False, "entries": {"margins"}})
-BY_NUMPY = 2.5e-7  # s of a processor: the margin of a row
+# s of a processor: the margin of a row in plain Python, which serves a FEW; of arrays, a call and a row of it
+IN_PLAIN, FEW = 4e-5, 8
+CALL, BY_NUMPY = 3e-4, 2.5e-7
 
 
 def orbits_of(reduction: Reduction) -> Orbits:
@@ -389,9 +391,10 @@ def margins_of(reduction: Reduction, orbits: Orbits, states: np.ndarray):
     with np.errstate(all="ignore"):
         if on_lines(orbits):
             below, clear = margin_on_line(u, v, rate, scaled)
-        elif BARRIERS.pays(BY_NUMPY * len(states)):
+        elif (fast := BARRIERS.pays(min(IN_PLAIN * len(states), CALL + BY_NUMPY * len(states)))
+              ) or len(states) < FEW:
             below, clear = np.empty(len(states)), np.empty(len(states), np.int8)
-            BARRIERS.functions(True)["margins"](u, v, rate, scaled, below, clear)
+            BARRIERS.functions(fast)["margins"](u, v, rate, scaled, below, clear)
         else:
             below, clear = margin(u, v, rate, scaled)
         return below / unit / unit, clear == 0

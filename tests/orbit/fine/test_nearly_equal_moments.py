@@ -221,6 +221,21 @@ def test_compiled_margins_are_the_bytes_of_numpy(monkeypatch):
         assert both[0][0][clear].tobytes() == both[1][0][clear].tobytes(), scene
 
 
+def test_margins_of_a_few_states_are_the_bytes_of_those_among_many_and_their_work_is_counted(monkeypatch):
+    """The same operations, written once, on numbers and on arrays; a call of arrays costs what many of its
+    rows do, so that it repays loading compiled code sooner than its rows alone would."""
+    draw, work = scenes(12), []
+    monkeypatch.setattr(barriers_arrays.BARRIERS, "pays", lambda seconds: work.append(seconds))
+    for _ in range(6):
+        scene, axis, rng = next(draw)
+        land, states = landscape(scene), random_states(scene, axis, rng, 12)
+        full, doubtful = barriers_arrays.margins_of(land.reduction, land.orbits, states)
+        for n in np.flatnonzero(~doubtful).tolist():
+            alone, doubt = barriers_arrays.margins_of(land.reduction, land.orbits, states[n:n + 1])
+            assert alone.tobytes() == full[n:n + 1].tobytes() and not doubt
+    assert max(work) > 5 * min(work) > 0 and len(work) > 30
+
+
 def test_an_arc_of_any_length_has_its_third_function_to_some_roundings():
     """y and S3 = (S1 - y)/e of x = tan(y/2), y/2 or tanh(y/2), by mpmath at 40 digits."""
     rng = random.Random(2)
