@@ -49,7 +49,8 @@ def compiling() -> Row:
                        capture_output=True,
                        env=os.environ | {"PYTHONPATH": str(ROOT), "NUMBA_CACHE_DIR": f"{folder}/cache"})
         assert any(Path(folder, "cache").rglob("*.nbi"))
-        return Row("wait-compile", "stabilab doctor --compile, once per computer", _spent() - before, "s")
+        return Row("wait-compile", "stabilab doctor --compile, once per computer, a core's share of two",
+                   (_spent() - before) / CORES, "s", note="processor time")
 
 
 def _of_the_readme() -> str:

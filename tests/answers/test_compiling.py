@@ -54,6 +54,26 @@ def test_without_numba_or_a_folder_to_write_to_an_error_says_what_to_do(monkeypa
         compiling.compile_all()
 
 
+@pytest.mark.skipif(not installed(), reason="nothing is compiled without numba")
+def test_no_function_is_compiled_by_two_tasks():
+    """numba keeps an index on disk of each function, by file and name: two processes that write one at once may
+    lose an entry, or name one file for two."""
+    def called(kernel):
+        """(file, name) of the functions of a kernel's own module, and of all that these call."""
+        made = {name: item.py_func for name, item in kernel.functions(True).items() if hasattr(item, "py_func")}
+        names, open_ = set(), [name for name, item in made.items()
+                               if item.__code__.co_filename == kernel.module.__file__]
+        while open_:
+            names.add(name := open_.pop())
+            open_ += [other for other in made[name].__code__.co_names if other in made and other not in names]
+        return {(made[name].__code__.co_filename, made[name].__qualname__) for name in names}
+    rows, others = (set().union(*(called(kernel) for kernel in compiling.kernels()
+                                  if (".orbit." in kernel.module.__name__) == of_orbits))
+                    for of_orbits in (True, False))
+    assert rows and others and rows.isdisjoint(others)
+    assert [task.__name__ for task in compiling.TASKS] == ["rows", "off_the_axes"]
+
+
 def test_no_name_has_two_values_in_modules_that_are_compiled_together():
     """A function sees the names of all modules that are compiled with its own, and one that several kernels call is
     compiled once for all of them."""

@@ -1,9 +1,13 @@
 """All loops that are compiled once per computer, each called with little work: for an installation, so that
-nobody waits for it later."""
+nobody waits for it later.
+
+Two processes share them where there are two cores. What one compiles the other does not: numba's index on
+disk, of each function by itself, is no place for two to write at once."""
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -18,6 +22,7 @@ from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
 from ...physics.own_unit import natural
 from ...physics.scene import Body, Scene
+from ...tasks import Task, done
 from ...unreduced import enclosure
 from ...unreduced.spin_up import certificate
 from ...unreduced.spin_up.certificate import tests_of
@@ -60,7 +65,13 @@ def enclosures() -> None:
     enclosure.Course(scene, (1, 2, 3), 1.0).advance(0.1, 2, band=True)
 
 
-TASKS: tuple[Callable[[], None], ...] = rows, spin_ups, enclosures
+def off_the_axes() -> None:
+    """Of motions without a reduction."""
+    spin_ups()
+    enclosures()
+
+
+TASKS: tuple[Callable[[], None], ...] = rows, off_the_axes
 
 
 def kernels() -> tuple[Kernel, ...]:
@@ -74,8 +85,9 @@ def compile_all() -> str:
     folder that it may write to: then every process compiles anew."""
     if not installed():
         raise InputError("compiling needs numba, which is not installed: pip install numba")
-    for task in TASKS:
-        task()
+    with TemporaryDirectory() as folder:
+        done([Task("compiling", f"answers.motions.compiling:{task.__name__}", ()) for task in TASKS],
+             Path(folder), lambda label: None)
     if not all(kernel.on_disk() for kernel in kernels()):
         raise InputError("compiling: numba has no folder that it may write to; name one in the environment "
                          "variable NUMBA_CACHE_DIR")
