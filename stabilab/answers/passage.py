@@ -303,7 +303,7 @@ def _search(scene: AnyScene, start: Sequence[float], limit: Limit, torque: Float
     return _quadratic(rows, limit.parts, Fraction(unit) ** 2), state, rates_of(rows, state.tolist()), unit
 
 
-def _with(scene: Scene, torque: Float3, wheel: Float3 | None) -> Scene:
+def _with(scene: Any, torque: Float3, wheel: Float3 | None) -> Scene:
     """The scene under a torque in place of its own, and with a momentum where one is given, in doubles."""
     replaced = {"constant_torque": torque} | ({} if wheel is None else {"gyrostat": wheel})
     return Scene(scene.body, *(effect for effect in scene.effects if effect.name not in replaced),
@@ -319,7 +319,7 @@ def largest_rate(scene: AnyScene, state: Sequence[float], until: float, budget: 
     return max(sizes) * unit, run.t / unit
 
 
-def _in_own_unit(scene: AnyScene, state: Sequence[float], torque: Float3 | None = None,
+def _in_own_unit(scene: Any, state: Sequence[float], torque: Float3 | None = None,
                  wheel: Float3 | None = None) -> tuple[Rows, float, np.ndarray]:
     """(coefficients of the rates in the motion's own unit of rates, that unit, the start in it).
 

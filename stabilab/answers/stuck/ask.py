@@ -171,7 +171,7 @@ def _best_pairs(scenario: Scenario, torque: Exact3, sets: Sets) -> list[tuple[He
     return out
 
 
-def _left_by_pairs(held: Sequence[int], torque: np.ndarray, arms: np.ndarray) -> np.ndarray:
+def _left_by_pairs(held: Sequence[int], torque: Any, arms: np.ndarray) -> np.ndarray:
     """(n,) the least torque that pairs leave by the shares of `_stops`, in doubles; infinite where rounding
     cannot make shares of the time of them. torque: (3,); arms: (n, 2, 3)."""
     a, b = np.moveaxis(arms, (1, 2), (0, 1))

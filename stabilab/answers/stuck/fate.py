@@ -258,11 +258,10 @@ def first_time(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[F
         return 0.0
     # a run is one in doubles: long fractions would cost more than the run
     moment, momentum = (tuple(map(float, vector)) for vector in (torque, wheel or scenario.wheel))
-    if clearly_oblique(momentum, moment):
-        motion = scenario.free, moment, momentum
-    else:  # the scene drops what roundings leave of right angles
-        motion = scenario.scene(*(tuple(map(Fraction, vector)) for vector in (moment, momentum))), None, None
-    t, until = run_once(motion[0], scenario.start, scenario.exact_limit, t_max, SEARCHED, *motion[1:])
+    scene, vectors = scenario.free, [moment, momentum]
+    if not clearly_oblique(momentum, moment):  # a scene drops what roundings leave of right angles
+        scene, vectors = scenario.scene(*(tuple(map(Fraction, vector)) for vector in vectors)), []
+    t, until = run_once(scene, scenario.start, scenario.exact_limit, t_max, SEARCHED, *vectors)
     return t if until >= t_max else until
 
 
