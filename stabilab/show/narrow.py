@@ -21,6 +21,7 @@ BETWEEN = 0.2  # inches by which a title may reach into the room between two pan
 PAIRED = 2.7  # of one in space of several, two of which stand beside each other
 EQUAL = 3.4  # of a panel with one scale for both axes
 HEADING, NOTE = 10, 8.5  # points of a title, and of notes in a legend
+GLYPH, LEFT = 0.75, 0.9  # of the size of letters: a digit with its part of the room; inches left of a panel
 HALF = 0.55  # of a panel's width: words at a point beyond stand on its left
 ENTRY = 46  # letters of a line of a legend
 
@@ -123,6 +124,8 @@ def _readable(ax: Axes, height: float, width: float) -> None:
         ticks = axis.get_major_ticks()
         if ticks and ticks[0].label1.get_fontsize() < SMALLEST:
             axis.set_tick_params(labelsize=SMALLEST)
+    if getattr(ax, "name", "") != "3d":
+        _fewer_ticks(ax, width)
     dpi, label = ax.figure.dpi, ax.yaxis.label
     if getattr(ax, "name", "") != "3d" and label.get_window_extent().height > 0.9 * height * dpi:
         label.set_text(label.get_text().replace(" (", "\n("))
@@ -139,6 +142,20 @@ def _readable(ax: Axes, height: float, width: float) -> None:
     ax.title.set_fontsize(size)
     ax.title.set_text("\n".join(style.clauses(line, width, HEADING if width == WIDTH else size)
                                 for line in ax.get_title().split("\n")))
+
+
+def _fewer_ticks(ax: Any, width: float) -> None:
+    """Numbers below a panel of so many inches that would meet become fewer, where its scale is linear."""
+    from matplotlib.ticker import AutoLocator, MaxNLocator
+    low, high = sorted(ax.get_xlim())
+    ticks = [tick for tick in ax.get_xticks() if low <= tick <= high]
+    if ax.get_xscale() != "linear" or not isinstance(ax.xaxis.get_major_locator(), AutoLocator) or not ticks:
+        return
+    printed = ax.xaxis.get_major_formatter().format_ticks(ticks)
+    wide = GLYPH * max(map(len, printed)) * SMALLEST  # points
+    room = 72 * (width - LEFT)
+    if len(ticks) * wide > room:
+        ax.xaxis.set_major_locator(MaxNLocator(max(2, int(room / wide) - 1)))
 
 
 def _thinned(figure: Figure, panels: list[Any]) -> None:

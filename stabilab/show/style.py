@@ -321,7 +321,8 @@ def clauses(text: str, width: float, size: float | None = None) -> str:
         count = math.ceil(len(lines[-1].rstrip()) / largest)
         if count > 1:
             full = _measured_together(lines[-1])  # textwrap ends no line there
-            fits = (textwrap.wrap(full, wide) for wide in range(len(lines[-1]) // count, len(lines[-1])))
+            fits = (textwrap.wrap(full, wide, break_on_hyphens=False)
+                    for wide in range(len(lines[-1]) // count, len(lines[-1])))
             *before, last = next((parts for parts in fits if len(parts) <= count), [full])
             lines[-1:] = [*before, f"{last} "]
     return "\n".join(line.rstrip() for line in lines).replace("\u00a0", " ")

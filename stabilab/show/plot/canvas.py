@@ -88,13 +88,14 @@ def answer(item: Subject, scale: Measures) -> str:
     return headline.two_lines(item.case, item.motion, scale.system)[0]
 
 
-def notes(item: Subject, scale: Measures, answered: bool = True) -> list[Note]:
+def notes(item: Subject, scale: Measures, answered: bool = True, shown: Sequence[Kind] = ()) -> list[Note]:
     """What limits that answer and does not stand in it; of no case nothing. answered: False of a picture that
-    shows no answer, but the motion or the body alone: what limits these."""
+    shows no answer, but the motion or the body alone: what limits these. shown: kinds of what the picture
+    itself looks at."""
     if item.case is None:
         return []
     units = replace(scale.system or units_of(item.case), axes=axes_of(item.case))
-    caveats = item.case.caveats if item.state is None else item.motion.caveats
+    caveats = without(item.case.caveats if item.state is None else item.motion.caveats, *shown)
     first = []
     if item.burning is not None:  # of the motion that follows it, whose start is as sure as the burn
         first = [Note(AFTER_BURN, AFTER_BURN)]

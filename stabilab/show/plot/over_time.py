@@ -18,7 +18,7 @@ from ...answers.stuck.fate import NEVER_AFTER, scenario_of, times_over
 from ...answers.tilt import SIDES, by_angle
 from ...answers.uncertain.boxes import box_of
 from ...answers.when import limit_of
-from ...errors import InputError
+from ...errors import InputError, Kind
 from ...numbers.principal import without_trace
 from ...reasons import broad
 from ...theories.theory import side_by_side
@@ -437,8 +437,9 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         reaches = r"$|\omega|$ =" if out.limit.kind == "rate" else "a component of"
         supposed = "an assumed " * (supplied is None or supplied.limits is None)
         target.set_ylabel(f"time to {supposed}{reaches} {smallest} ({unit})")
-        return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
+        looked_at = Kind.MISALIGNMENT, *([Kind.TOLERANCE] if out.within else [])
+        return canvas.explained(target, rows if legend else [], ax is None, item.heading,
+                                canvas.answer(item, scale), notes=canvas.notes(item, scale, shown=looked_at))
 
 
 def _between_decades() -> Any:
