@@ -277,9 +277,10 @@ def fitting(text: str, width: float) -> float:
 
 
 def titled(heading: str, said: list[str], width: float,
-           most: int = TITLE_LINES) -> tuple[str, float, list[str]]:
-    """(the text of a title of so many lines, the size of its letters, lines without room in it), for a
-    heading as its user wrote it and lines of the program, over so many inches."""
+           most: int = TITLE_LINES) -> tuple[str, float, list[str], str]:
+    """(the text of a title of so many lines, the size of its letters, lines without room in it, what of the
+    text is not the heading), for a heading as its user wrote it and lines of the program, over so many
+    inches."""
     size = fitting(said[0] if said else "", width)
     first = clauses(said[0], width, size).split("\n") if said else []
     if len(first) > 1 and (share() == 1 or len(first) > most):
@@ -288,20 +289,21 @@ def titled(heading: str, said: list[str], width: float,
     own = clauses(heading, width, size).split("\n") if heading else []
     if len(own) > room > 0:
         own[room - 1:] = [f"{own[room - 1].rstrip(',;:')} ..."]
-    return "\n".join(map(literal, (*own[:room], *first))), size, said[1:]
+    own, first = list(map(literal, own[:room])), list(map(literal, first))
+    return "\n".join([*own, *first]), size, said[1:], "\n".join(first)
 
 
 def over(figure, heading: str, line: str = "", left: bool = False) -> list[str]:
     """Give a figure a title as of `titled`, of a line at most beside the heading; returns that line where it
     has no room. left: at its left edge, not in the middle."""
-    text, size, rest = titled(heading, [line] if line else [], figure.get_figwidth())
+    text, size, rest, _ = titled(heading, [line] if line else [], figure.get_figwidth())
     figure.suptitle(text, fontsize=size, **({"x": 0.02, "ha": "left"} if left else {}))
     return rest
 
 
 def above(ax, heading: str, line: str = "") -> list[str]:
     """As `over`, at the left of axes that are as wide as their figure."""
-    text, size, rest = titled(heading, [line] if line else [], ax.figure.get_figwidth())
+    text, size, rest, _ = titled(heading, [line] if line else [], ax.figure.get_figwidth())
     ax.set_title(text, fontsize=size, loc="left")
     return rest
 

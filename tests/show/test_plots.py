@@ -623,3 +623,15 @@ def test_a_reason_names_only_what_acts_in_the_scene():
     assert why("sphere", "off-axis-one").endswith("on which the motion stays: the torque is off the principal axes")
     scene = stabilab.Scene(stabilab.Body((3, 2, 1)), stabilab.Gyrostat((1, 2, 3)))
     assert which.why_not("phase", subject.subject(scene, (1, 2, 3))).endswith("components along all three axes")
+
+
+@pytest.mark.parametrize("heading", ["A top", "A top " * 40])
+@pytest.mark.parametrize("line", ["", "Bounded for ever", "clause of an answer; " * 12])
+@pytest.mark.parametrize("inches", [3.4, 7.6, 13.0])
+def test_a_title_has_two_lines_and_what_is_left_out_of_it_is_handed_on(heading, line, inches):
+    """What is not the heading is the line, whole, or it comes back."""
+    with style.drawing():
+        text, _, rest, own = style.titled(heading, [line] if line else [], inches)
+    assert text.count("\n") < style.TITLE_LINES and text.endswith(own)
+    assert own.split() == ([] if rest else line.split()) and rest in ([], [line])
+    assert text[:5] == heading[:5] or own.count("\n") == 1

@@ -129,8 +129,9 @@ def title(ax: Any, heading: str, *lines: str, most: int | None = None) -> list[s
         shown = [style.clauses(line, inches) for line in filter(None, (heading, *said))]
         ax.set_title("\n".join(map(style.literal, shown)), wrap=True)
         return []
-    text, size, rest = style.titled(heading, said, inches, most)
+    text, size, rest, own = style.titled(heading, said, inches, most)
     drawn = ax.set_title(text, fontsize=size)
+    drawn.set_label(own)  # which a narrow picture has alone
     if width == 1.0:  # over the figure, as axes with words on their left are not in its middle
         from matplotlib.transforms import blended_transform_factory
         drawn.set_transform(blended_transform_factory(ax.figure.transFigure, drawn.get_transform()))

@@ -58,6 +58,7 @@ SHEER = {style.VIOLET: 0.4, style.VERMILION: 0.22}
 LIGHT = np.array([0.35, -0.55, 0.76])
 DARKEST = 0.62  # share of its colour that a facet keeps which the light only grazes
 ROOMY = 3.8  # inches: axes that are smaller have fewer ticks
+CROWDED = 26  # letters at the ticks of an axis across: of more it has fewer ticks
 SEEN = 0.36  # of the longest side: an axis that is seen shorter has fewer ticks, lest they lie on each other
 USUAL = 6  # letters of a number at a tick: longer ones stand farther off
 FLATTEST = 0.75  # of the longest side of a box whose sides are in different scales
@@ -164,6 +165,8 @@ def furnish(ax: Axes3D, box: Box, labels: tuple[str, ...], view: tuple[float, fl
     roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)
     parts = sides / sides.max() * _seen(view)
     ticks = [box.ticks(n, 3 if roomy * part > SEEN else 2) for n, part in enumerate(parts)]
+    ticks = [box.ticks(n, 2) if n < 2 and sum(map(len, numbers(shifted(row, "")[0]))) > CROWDED else row
+             for n, row in enumerate(ticks)]
     values, labels = zip(*map(shifted, ticks, labels))
     power = math.floor(math.log10(max(abs(v) for row in values for v in row)))
     power = power if not -3 < power < 5 else 0

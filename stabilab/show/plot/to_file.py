@@ -82,7 +82,7 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
         if narrow is not None:
             ax = figures[0].axes[0]
             if titled and not figures[0].get_suptitle():  # without the heading of the case: a page has it
-                ax.set_title(ax.get_title().partition("\n")[2])
+                ax.set_title(ax.title.get_label())
             narrow_pictures.save(figures[0], Path(narrow))
         return files
 
