@@ -135,12 +135,12 @@ def _drawn(result: RotationDiagram, plt: Any) -> Any:
         ax.axvline(float(change), color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
     ends = float(result.span.low), float(result.span.high)
     ax.set_xlim(*ends)
-    ax.set_xlabel(with_unit(result.span.key.name, result.span.shown_unit))
+    ax.set_xlabel(with_unit(result.span.label, result.span.shown_unit))
     ax.set_ylabel("energy (J)")
     counts_above(ax, ends, [(piece.low, piece.high, str(piece.stable)) for piece in result.pieces],
                  [float(value) for value in result.changes])
     held = (f"|H| = {number(result.momentum or 0.0, 6)} N m s" if result.rate is None
-            else f"{number(result.rate, 6)} rad/s about the wheels' axis")
+            else f"{units_of(result.case).rate(result.rate, 6)} about the wheels' axis")
     rest = style.over(figure, result.case.title or result.case.name,
                       f"{held}; in bold: how many attract with losses", left=True)
     style.legend(figure, [(HEADS[nature], looks[nature]) for nature in HEADS if nature in points],

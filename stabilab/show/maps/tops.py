@@ -122,7 +122,7 @@ def _drawn(result: TopDiagram, plt: Any) -> Any:
     ax.set_xlim(*ends)
     ax.set_ylim(-6, 186)
     ax.set_yticks(range(0, 181, 30))
-    ax.set_xlabel(with_unit(result.span.key.name, result.span.shown_unit))
+    ax.set_xlabel(with_unit(result.span.label, result.span.shown_unit))
     ax.set_ylabel("lean of the axis from the upward vertical (deg)")
     counts_above(ax, ends, [(piece.low, piece.high, _word(piece.stable(UPRIGHT))) for piece in result.pieces],
                  [float(value) for value in result.changes])
