@@ -3,18 +3,13 @@ import gc
 import os
 import sys
 
-from . import interrupt, streams, threads
-
-# Reading modules makes many objects and no rubbish: with the interpreter's 700 the collector would look
-# through them some
-# hundred times before a small command has begun, at a tenth of its time.
-OBJECTS_BETWEEN_COLLECTIONS = 50_000
+from . import interrupt, rubbish, streams, threads
 
 
 def main() -> None:
     """Run a command and end the process with its exit code. Interrupts are taken care of before anything slow
     is imported."""
-    gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
+    rubbish.seldom()
     streams.occupy()
     threads.limit()
     interrupt.arm()

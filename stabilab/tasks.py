@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
+from . import rubbish
 from .errors import StabilabError
 from .interrupt import end_with_parent
 from .processes import cores, helpers
@@ -81,6 +82,7 @@ def _taken(tasks, location):
 def main(location: Path) -> None:
     """What a helper does: the same list in the same order, whatever is not taken yet."""
     end_with_parent()
+    rubbish.seldom()
     tasks = pickle.loads((location / "tasks").read_bytes())
     for n in _taken(tasks, location):
         try:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import settings
 
 from stabilab import cli
-from stabilab.__main__ import OBJECTS_BETWEEN_COLLECTIONS
+from stabilab.rubbish import OBJECTS_BETWEEN_COLLECTIONS
 from stabilab.show import style
 
 os.environ["STABILAB_QUIET"] = "1"  # whether a command takes longer than a second hangs on the machine

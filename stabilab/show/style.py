@@ -171,14 +171,15 @@ def _plain_numbers(figure: Figure) -> None:
 
 
 def _drawn(figure: Figure, dpi: float):
-    """The figure as a Pillow image. A canvas lays it out and draws it once; savefig would draw it twice."""
+    """The figure as a Pillow image. A canvas lays it out and draws it once; savefig would draw it twice. Its
+    own canvas, where that can, knows the sizes of words that were measured while the figure was built."""
     import numpy as np
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL import Image
     before = figure.dpi, figure.canvas
     try:
         figure.dpi = dpi
-        canvas = FigureCanvasAgg(figure)
+        canvas = before[1] if type(before[1]) is FigureCanvasAgg else FigureCanvasAgg(figure)
         canvas.draw()
         return Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
     finally:

@@ -17,7 +17,7 @@ PAGE = ROOT / "docs" / "house.md"
 ASIDE = ("case", "maps", "verify")  # drawn at the side of the others
 PICTURE = ROOT / "docs" / "static" / "rooms.svg"
 GROUND = {"errors", "files", "interrupt", "packages", "reasons", "streams", "validation",
-          "version", "representation", "processes", "threads", "tasks"}
+          "version", "representation", "processes", "threads", "tasks", "rubbish"}
 # room -> rooms that it may import, besides itself and the ground; None: nothing, the ground included
 MAY: dict[str, str | None] = {
     "numbers": "", "physics": "numbers", "case": "physics numbers", "integrate": "physics numbers",

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -40,11 +40,11 @@ class Figure:
     added: bool = False
     cases: Mapping[tuple[str, str], str] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def caption(self) -> str:
         return written(self.text() if callable(self.text) else self.text)
 
-    @property
+    @cached_property
     def tolerance(self) -> str:
         return self.exact() if callable(self.exact) else self.exact
 
@@ -152,7 +152,12 @@ def farthest(printed: Sequence, true: Sequence) -> float:
     points, others = (np.concatenate([np.reshape(part, (-1, np.shape(part)[-1])) for part in curves])
                       for curves in (printed, true))
     points, others = (result[np.isfinite(result).all(axis=1)] for result in (points, others))
-    return float(cKDTree(others).query(points)[0].max())
+    tree, tried = cKDTree(others), points[::PIECES]
+    nearest = tree.query(tried)[0]
+    # no distance grows by more than the step to a point: few of those between can be farther
+    step = np.linalg.norm(points - np.repeat(tried, PIECES, axis=0)[:len(points)], axis=1)
+    left = points[np.repeat(nearest, PIECES)[:len(points)] + step >= nearest.max()]
+    return float(tree.query(left)[0].max())
 
 
 @dataclass(frozen=True)
