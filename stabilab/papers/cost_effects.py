@@ -4,6 +4,7 @@ with common subexpressions formed once.
 """
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -140,17 +141,33 @@ def _least(call, items) -> float:
     return min(rows) / items
 
 
-def imported(*names: str) -> tuple[str, ...]:
-    """Modules of effects that a fresh interpreter has loaded after it built the scene of these effects and
-    its equations."""
-    unknown = set(names) - set(REGISTRY)
+IMPORTED = """
+import os, sys, sympy
+from stabilab.papers.cost_effects import BODY, Scene, derive, example
+for names in sys.argv[1:]:
+    copy = os.fork() if hasattr(os, "fork") else 0
+    if not copy:
+        derive(Scene(BODY, *map(example, names.split())))
+        print(*sorted(m.rsplit(".")[-1] for m in sys.modules if m.startswith("stabilab.physics.effects.")),
+              flush=True)
+        os._exit(0)
+    if os.waitpid(copy, 0)[1]:
+        sys.exit(1)
+"""
+
+
+def imported(*scenes: Sequence[str]) -> list[tuple[str, ...]]:
+    """For each scene, given by the names of its effects: the modules of effects that a fresh interpreter has
+    loaded after it built the scene and its equations. One interpreter loads the program, and a copy of it
+    builds each scene, where the system can copy a process; elsewhere each has its own."""
+    unknown = {name for names in scenes for name in names} - set(REGISTRY)
     if unknown:
         raise KeyError(*unknown)
-    code = ("import sys\nfrom stabilab.papers.cost_effects import BODY, derive, example, "
-            "Scene\nderive(Scene(BODY, *map(example, sys.argv[1:])))\nprint(*sorted(m.rsplit('.')[-1] for m "
-            "in sys.modules if m.startswith('stabilab.physics.effects.')))\n")
-    run = subprocess.run([sys.executable, "-c", code, *names], capture_output=True, text=True, check=True)
-    return tuple(name for name in run.stdout.split() if name != "base")
+    words = [" ".join(names) for names in scenes]
+    text = "".join(subprocess.run([sys.executable, "-c", IMPORTED, *each], capture_output=True, text=True,
+                                  check=True).stdout
+                   for each in ([words] if hasattr(os, "fork") else [[word] for word in words]))
+    return [tuple(name for name in line.split() if name != "base") for line in text.splitlines()]
 
 
 # -- an effect of zero strength
@@ -198,7 +215,9 @@ def page(folder, tell=None, **around) -> Path:
     tell("what each effect costs, one added to the other")
     steps = [(counted(added, scene), timed(scene)) for added, scene in ladder()]
     tell("what each effect costs by itself")
-    singles = [(counted(added, scene), timed(scene), imported(added)) for added, scene in alone()]
+    loaded = imported(*([added] for added, _ in alone()))
+    singles = [(counted(added, scene), timed(scene), modules)
+               for (added, scene), modules in zip(alone(), loaded)]
     tell("effects of zero strength")
     zero = {name: zero_is_absent(name) for name, (_, none) in EXAMPLES.items() if none}
     with style.drawing() as plt:
