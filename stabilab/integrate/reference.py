@@ -107,11 +107,10 @@ class Step:
 
 
 def value(row: Sequence[arb], s: arb, derivative: int = 0):
-    """The series, or its first derivative, at s, by Horner's rule."""
-    total = s * 0
-    for n in range(len(row) - 1, derivative - 1, -1):
-        total = (total * s + (row[n] * n if derivative else row[n])).mid()
-    return total
+    """The series, or its first derivative, at s."""
+    from flint import arb_poly
+    series = arb_poly(row)
+    return (series.derivative() if derivative else series)(s).mid()
 
 
 def steps(recursion: Recursion, start: Sequence[float | Fraction] | np.ndarray, digits: int,

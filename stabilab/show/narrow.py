@@ -160,16 +160,25 @@ def _fewer_ticks(ax: Any, width: float) -> None:
 
 def _thinned(figure: Figure, panels: list[Any]) -> None:
     """Words at points of a panel that would lie on earlier ones are left out: they stand in the wide picture.
-    """
+    The figure is laid out for this, and once more only where words that made it narrower are gone."""
     crowded = [ax for ax in panels if len(ax.texts) > 1 and getattr(ax, "name", "") != "3d"]
-    if crowded:
-        figure.draw_without_rendering()
+    if not crowded:
+        return
+    before, figure.dpi = figure.dpi, DPI
+    if (engine := figure.get_layout_engine()) is not None:
+        engine.execute(figure)
+    outside = False
     for ax in crowded:
         taken: list[Any] = []
+        panel = ax.get_window_extent()
         for text in ax.texts:
             box = text.get_window_extent()
             text.set_visible(not any(box.overlaps(other) for other in taken))
             taken += [box] if text.get_visible() else []
+            outside |= not text.get_visible() and not (panel.contains(*box.min) and panel.contains(*box.max))
+    if engine is not None and not outside:
+        figure.set_layout_engine("none")
+    figure.dpi = before
 
 
 def _below(figure: Figure, legend: Any) -> None:
