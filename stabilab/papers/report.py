@@ -343,15 +343,15 @@ def _validation(folder, result, nav):
 
 
 def _precision_of_kinds(cases, folder, **around):
-    """The first case of every kind: the others of a kind obey the same equations with other numbers."""
+    """The first case of every kind: the others of a kind have the same effects with other numbers."""
     firsts: dict = {}
-    for case in cases:
+    for case in sorted(cases, key=lambda case: case.name != precision_page.FIRST):
         if case.state is not None and case.span is not None and special_of(case) is None:
             firsts.setdefault(precision_page.kind(case), case)
     left = len(own.entries(cases)) - len(firsts)
     return precision_page.page(firsts.values(), folder,
                                passed=(
-                                   f"{left} other cases, with the equations of one of these and other "
+                                   f"{left} other cases, with the effects of one of these and other "
                                    f"numbers",) if left else (), **around)
 
 

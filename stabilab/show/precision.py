@@ -13,7 +13,6 @@ from ..cost.accuracy import EPS, Point, Precision, digit_price
 from ..errors import InputError
 from ..files import write_text
 from ..packages import demand
-from ..physics.equations import derive
 from ..processes import machine, versions
 from . import endings, limiting, narrow, precision_overview, style
 from .report import html
@@ -306,9 +305,9 @@ FIRST = "minor-axis-100"  # the motion that the page begins with, where it was m
 
 def page(cases, folder, tell=None, passed=(), **around) -> Path:
     """Measure every case that has a motion and a span and write precision.html with its pictures and points
-    (in precision/) into the folder; returns its path. The first case of every kind (the same equations, the
-    same axis of the torque) is measured with every method and drawn; the others, with the methods that are
-    likely to be best, are told in words. passed: lines on cases that are left out; around: of the pages
+    (in precision/) into the folder; returns its path. The first case of every kind (the same effects, the
+    torque along an axis or not) is measured with every method and drawn; the others, with the methods that
+    are likely to be best, are told in words. passed: lines on cases that are left out; around: of the pages
     beside it (`html.render`)."""
     folder, tell, sections, passed, seen = Path(folder), tell or (lambda label: None), [], list(passed), set()
     for case in cases:
@@ -330,10 +329,11 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
 
 
 def kind(case) -> tuple:
-    """What cases have in common that are measured alike: equations but for numbers, axes of the torque."""
-    equations = derive(case.scene, case.blocks)
-    acting = tuple(m != 0 for m in case.scene.quadratic().m) if case.scene.plain else ()
-    return equations.blocks, tuple(map(str, equations.rhs)), acting
+    """What cases have in common that are measured alike: variables, blocks of the state, the effects by name,
+    and whether a torque acts along one principal axis or along several."""
+    scene = case.scene
+    acting = sum(m != 0 for m in scene.quadratic().m) if scene.plain else 0
+    return scene.variables, tuple(case.blocks), tuple(effect.name for effect in scene.effects), min(acting, 2)
 
 
 def _section(case, folder, effort, opens):
