@@ -144,9 +144,7 @@ def _picture(plt, title, lines, size, text, marked, own):
                 if not i:
                     _ending(ax, column)
             if not i or headings[i] != headings[i - 1][:len(line)]:
-                refused = "" if column is None else _refused(column, text)
-                # above the words on cuts
-                ax.set_title(headings[i][j] + refused, pad=14 + LINE * more, fontsize=8 if refused else None)
+                ax.set_title(headings[i][j], pad=14 + LINE * more)  # above the words on cuts
             if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0][0].over_time:
                 ax.set_xlabel(row.xlabel)
             if not j or column is None:
@@ -154,7 +152,10 @@ def _picture(plt, title, lines, size, text, marked, own):
     # numbers at the ends of axes, headings below labels
     figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if len(set(map(tuple, headings))) < 2 else 0.12)
     figure.suptitle(title, fontsize=11)
-    style.legend(figure, _entries(lines, text, *marked))
+    columns = {c.heading: c for line in lines for *_, c in line if c is not None}
+    notes = [f"{heading}: {line}" for heading, c in columns.items() for line in _refused(c, text)]
+    style.legend(figure, _entries(lines, text, *marked),
+                 notes="\n".join(style.clauses(note, figure.get_figwidth()) for note in notes))
     return figure
 
 
@@ -173,12 +174,11 @@ def _entries(lines, text, mark_words, point_words) -> list:
     return rows + [("alone, thin: corrected integrals", NEIGHBOUR_LOOKS[1])] * thin
 
 
-def _refused(column: Column, text: Mapping[str, str]) -> str:
-    """Which models have no curve in a column, and why, as lines of its heading."""
+def _refused(column: Column, text: Mapping[str, str]) -> list[str]:
+    """Which models have no curve in a column, and why."""
     why = {reason.text().split(": ")[0]: [text[m] for m, other in column.refused.items() if other == reason]
            for reason in column.refused.values()}
-    return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48)
-                   for reason, models in why.items())
+    return [f"{', '.join(f'no “{model}”' for model in models)}: {reason}" for reason, models in why.items()]
 
 
 def _ending(ax, column):
