@@ -53,7 +53,7 @@ class Effort:
 
 EFFORTS = {"full": Effort(WORK, 60_000, 1, (7, 0.2), 90.0),
            "quick": Effort(WORK // 4, 12_000, 3, (3, 0.05), 2.0),
-           "brief": Effort(WORK // 12, 2_000, 3, (2, 0.01), 0.3, False),
+           "brief": Effort(WORK // 12, 4_000, 3, (2, 0.01), 0.3, False),
            "glance": Effort(WORK // 24, 2_000, 3, (2, 0.005), 0.1, False,
                             ("taylor-batch", "RK45", "RK23", "Radau", "BDF"))}
 
