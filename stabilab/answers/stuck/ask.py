@@ -138,9 +138,6 @@ class Sets:
                         else np.stack(np.triu_indices(len(alone), 1), axis=1))
         self.arms = np.array([floats(arm) for _, arm in alone]).reshape(-1, 3)[self.indices]
 
-    def __iter__(self) -> Iterator[Chosen]:
-        return map(self.chosen, range(len(self.arms)))
-
     def chosen(self, number: int) -> Chosen:
         """One of them."""
         return tuple(self.alone[i] for i in self.indices[number].tolist())

@@ -295,7 +295,8 @@ def test_doubles_rank_pairs_and_miss_none_that_exact_numbers_would_list(asked, m
     monkeypatch.setattr(ask, "_stops", lambda scenario, torque, chosen: (judged.append(len(chosen) == 2),
                                                                          stops(scenario, torque, chosen))[1])
     few, judged_of_few = asked(text + tail).rows[0].helpers, sum(judged)
-    monkeypatch.setattr(ask, "_by_doubles", lambda torque, sets, least: [(0.0, chosen) for chosen in sets])
+    monkeypatch.setattr(ask, "_by_doubles", lambda torque, sets, least: [
+        (0.0, sets.chosen(number)) for number in range(len(sets.arms))])
     judged.clear()
     every = asked(text + tail).rows[0].helpers
     assert every == few and any(len(helper.thrusters) == 2 for helper in every)
