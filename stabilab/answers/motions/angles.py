@@ -270,4 +270,3 @@ def _angles(scene: AnyScene, equations: Equations, origin: np.ndarray, states: n
         momentum.append(between(H, axis) if pole is None else between(now, pole))
         apart.append(between(now, begun))
     return np.stack(momentum, axis=1), np.stack(apart, axis=1)
-

@@ -152,8 +152,8 @@ def _picture(plt, title, lines, size, text, marked, own):
     # numbers at the ends of axes, headings below labels
     figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if len(set(map(tuple, headings))) < 2 else 0.12)
     figure.suptitle(title, fontsize=11)
-    columns = {c.heading: c for line in lines for *_, c in line if c is not None}
-    notes = [f"{heading}: {line}" for heading, c in columns.items() for line in _refused(c, text)]
+    by_heading = {c.heading: c for line in lines for *_, c in line if c is not None}
+    notes = [f"{heading}: {why}" for heading, c in by_heading.items() for why in _refused(c, text)]
     style.legend(figure, _entries(lines, text, *marked),
                  notes="\n".join(style.clauses(note, figure.get_figwidth()) for note in notes))
     return figure

@@ -141,7 +141,7 @@ def ended(memory: np.ndarray, lane: int):
 
 def load(memory: np.ndarray, lane: int, row: int, states: np.ndarray, changes: np.ndarray, spans: np.ndarray,
          left: np.ndarray, due: np.ndarray, reached: np.ndarray, met: np.ndarray):
-    """A row of motions into a lane, for a part of its steps where others wait."""
+    """A row of motions into a lane, with all steps that are due to it."""
     for i in range(3):
         memory[(STATE + i) * LANES + lane] = states[row, i]
         memory[(CHANGE + i) * LANES + lane] = changes[row, i]
