@@ -39,6 +39,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .maps.percentiles import percentiles as percentiles
     from .orbit.result import Fate as Fate
     from .papers.report import report as report
+    from .physics.body import Body as Body
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
     from .physics.effects.constant_torque import ConstantTorque as ConstantTorque
@@ -53,7 +54,6 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.resistance import Resistance as Resistance
     from .physics.effects.viscous_damper import ViscousDamper as ViscousDamper
     from .physics.effects.wheel_motor import WheelMotor as WheelMotor
-    from .physics.scene import Body as Body
     from .physics.scene import ScaledGyrostat as ScaledGyrostat
     from .physics.scene import Scene as Scene
     from .show import plot as plot
@@ -72,7 +72,7 @@ _HOME = {
     "load_burning": "study", "burn": "answers.stuck.burn",
     "load_orbiting": "case.read", "circular_orbit": "answers.circular_orbit",
     "flat_spin": "answers.dissipation.flat_spin",
-    "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
+    "Body": "physics.body", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria", "chaos": "answers.motions.scenes",

@@ -19,8 +19,9 @@ from ..numbers.principal import (
 )
 from ..numbers.units import INERTIA, half_digit
 from ..numbers.vectors import Exact3
+from ..physics.body import ROUNDING, Body, slack_of
 from ..physics.effects import effect_class
-from ..physics.scene import ROUNDING, VECTORS_INSIDE, Body, along_principal_axes, slack_of
+from ..physics.scene import VECTORS_INSIDE, along_principal_axes
 from .hardware import ZERO3, Thruster, Wheel
 from .table import Faults, Table, Written, described
 from .uncertain import NORMAL, SIGMAS, states_uncertainty, uncertain_number

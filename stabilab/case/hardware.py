@@ -11,7 +11,7 @@ from ..numbers.exact import Rounded, exact, sqrt_fraction
 from ..numbers.principal import PrincipalAxes, crossed, settled
 from ..numbers.units import FORCE, pi
 from ..numbers.vectors import Exact3, dot
-from ..physics.scene import Body
+from ..physics.body import Body
 from ..reasons import Length, Sentence
 from . import sections
 from .aliases import shown

@@ -17,9 +17,9 @@ from ..physics.coefficients import Scaling
 from ..physics.scene import INSIDE, NO_MOTION, ScaledGyrostat, Scene
 from ..reasons import Reason, Sentence
 from ..validation import came, checked_span
-from .aliases import cure_of_units
 from .body import judge_oblique, turned_motion
 from .correlations import correlations_of
+from .cures import cure_of_units
 from .far import in_doubles
 from .hardware import Limits, Thruster, Wheel, judge_limits
 from .lines import KeyLines, key_lines

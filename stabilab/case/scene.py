@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 from ..errors import InputError
 from ..numbers.principal import PrincipalAxes
+from ..physics.body import Body
 from ..physics.coefficients import to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.effects.base import Effect
-from ..physics.scene import Body, ScaledGyrostat, Scene
+from ..physics.scene import ScaledGyrostat, Scene
 from ..reasons import Reason, Sentence
 from .aliases import cure_of_key
 from .body import added, body_of, centre_of_mass, fitted, turned_effects

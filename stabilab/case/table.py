@@ -18,15 +18,8 @@ from ..numbers.exact import exact
 from ..numbers.units import dimension_of, quantity, unit_of_key
 from ..numbers.vectors import Exact3
 from ..physics.effects import effect_class
-from .aliases import (
-    cure_of_key,
-    cure_of_number,
-    cure_of_numbers,
-    cure_of_title,
-    cure_of_truth,
-    misnamed,
-    shown,
-)
+from .aliases import cure_of_key, misnamed, shown
+from .cures import cure_of_number, cure_of_numbers, cure_of_title, cure_of_truth
 from .lines import KeyLines
 from .uncertain import Uncertain, states_uncertainty, uncertain_number
 

@@ -25,7 +25,7 @@ from ..errors import InputError, printable
 from ..files import write_text
 from ..show import endings, precision_overview
 from ..show import precision as shown
-from ..show.space import natural, seen
+from ..show.space.span import natural, seen
 from ..show.terminal import say, tell
 from ..show.text import cost
 from ..show.text.scene import of_all

@@ -16,10 +16,11 @@ from typing import Any
 
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, Exact3, dot
+from ..physics.body import Body
 from ..physics.coefficients import Content, Together, gyrostat_scene
 from ..physics.effects import effect_class
 from ..physics.equations import derive
-from ..physics.scene import Body, Scene
+from ..physics.scene import Scene
 from ..reasons import Reason, Sentence
 from .damper_mass import relaxed_equilibria
 from .liquid import THE_LIQUID, liquid_equilibria

@@ -18,9 +18,10 @@ from ..answers.equilibria import equilibria
 from ..answers.motion import motion
 from ..answers.simulate import trajectory
 from ..integrate.to_heyoka import borrowed_taylor, heyoka_available
+from ..physics.body import Body
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.equations import derive
-from ..physics.scene import Body, Scene
+from ..physics.scene import Scene
 from ..physics.to_numpy import Form, form, to_numpy
 from ..show import narrow, style
 from ..show.report import html

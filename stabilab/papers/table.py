@@ -24,10 +24,11 @@ from ..answers.motion import motion
 from ..case.read import Case, load
 from ..equilibrium.torque_table import torque_table
 from ..errors import InputError
+from ..physics.body import Body
 from ..physics.coefficients import to_scaled, torque_from_mu
 from ..physics.effects.constant_torque import ConstantTorque
 from ..physics.effects.gyrostat import Gyrostat
-from ..physics.scene import Body, ScaledGyrostat, Scene
+from ..physics.scene import ScaledGyrostat, Scene
 from ..show import style
 from ..show.data import csv_lines
 from .integrals import Integrals, integrals

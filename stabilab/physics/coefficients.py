@@ -34,9 +34,10 @@ from ..numbers.exact import Rounded, exact_vector, sqrt_fraction
 from ..numbers.vectors import Exact3, Float3, Number, Triple, cross, cross_matrix, dot
 from ..reasons import Axis, Reason, Sentence
 from ..validation import checked_scene, real
+from .body import Body
 from .effects import effect_class
 from .effects.base import Effect
-from .scene import INSIDE, NO_MOTION, ZERO3, AnyScene, Body, ScaledGyrostat, Scene
+from .scene import INSIDE, NO_MOTION, ZERO3, AnyScene, ScaledGyrostat, Scene
 
 if TYPE_CHECKING:
     import numpy as np

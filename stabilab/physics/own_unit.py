@@ -19,8 +19,9 @@ from typing import Any
 
 from ..errors import InputError
 from ..numbers.vectors import Number
+from .body import Body
 from .effects.base import Effect
-from .scene import AnyScene, Body, Rows, ScaledGyrostat, Scene
+from .scene import AnyScene, Rows, ScaledGyrostat, Scene
 
 # exponents between which the unit stays: the control is at most 16 times coarser than asked
 SLOW, FAST = -4, 20

@@ -28,7 +28,8 @@ from .plot.in_space import FACETS, PALEST, SHEER, away, rows, sight, space_of
 from .plot.subject import measures, subject
 from .progress import each
 from .render_probe import probe, use
-from .space import Space, across, look, numbers, shifted
+from .space.box import numbers, shifted
+from .space.drawing import Space, across, look
 from .terminal import some
 
 if TYPE_CHECKING:

@@ -12,13 +12,9 @@ from flint import fmpq_poly
 from .numbers import (
     AHEAD,
     LINEAR,
-    TOO_LARGE,
     VERDICT,
     Malformed,
     Rates,
-    Root,
-    TooLarge,
-    Work,
     bracket,
     brief,
     characteristic,
@@ -28,9 +24,9 @@ from .numbers import (
     fraction,
     numbers,
     q,
-    real_roots,
     word,
 )
+from .roots import TOO_LARGE, Root, TooLarge, Work, real_roots
 
 
 def dot(a: Sequence[Fraction], b: Sequence[Fraction | int]):

@@ -24,23 +24,8 @@ from .curves import (
     leaves_double_root,
     words,
 )
-from .numbers import (
-    TOO_LARGE,
-    Rates,
-    Root,
-    TooLarge,
-    Work,
-    brackets,
-    brief,
-    characteristic,
-    entries,
-    exact_sign,
-    excluded,
-    field,
-    q,
-    real_roots,
-    word,
-)
+from .numbers import Rates, brackets, brief, characteristic, entries, exact_sign, excluded, field, q, word
+from .roots import TOO_LARGE, Root, TooLarge, Work, real_roots
 
 
 # --- Where the two conditions meet in a line: the exact zeros of the rates on it, and whether the boxes

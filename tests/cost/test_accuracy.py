@@ -17,9 +17,10 @@ from stabilab.cost import accuracy as measuring
 from stabilab.cost.accuracy import Point, digit_price, pareto, precision
 from stabilab.cost.methods import methods, problem
 from stabilab.integrate.reference import reference, relative_errors
+from stabilab.physics.body import Body
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.equations import derive
-from stabilab.physics.scene import Body, Scene
+from stabilab.physics.scene import Scene
 from stabilab.processes import machine
 from stabilab.show import precision as precision_page
 from stabilab.show import precision as shown

@@ -75,7 +75,7 @@ DOORS = {
     ("stabilab.show.explore.pictures", "stabilab.show.plot.long"): "loads numpy",
     ("stabilab.show.explore.pictures", "stabilab.show.plot.turning"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.answers.when"): "loads numpy",
-    ("stabilab.show.space", "stabilab.orbit.separatrix.branches"): "loads numpy",
+    ("stabilab.show.space.reach", "stabilab.orbit.separatrix.branches"): "loads numpy",
     ("stabilab.unreduced.bounds", "stabilab.unreduced.evidence"): "loads numpy",
 }
 

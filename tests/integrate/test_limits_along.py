@@ -7,11 +7,12 @@ import pytest
 
 import stabilab
 from stabilab.integrate import limits_along
+from stabilab.physics.body import Body
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.constant_torque import ConstantTorque
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.physics.scene import Body, Scene
+from stabilab.physics.scene import Scene
 
 CHARGE = Charge("0.1", 1, 1, "0.4")
 BALL = Scene(Body((2, 2, 2)), CHARGE)

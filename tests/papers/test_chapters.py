@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.papers import report
+from stabilab.papers import chapter
 from stabilab.papers.families import FAMILIES, sweep
 from stabilab.papers.figures import catalogue as figures
 from stabilab.papers.figures import charged as figures_charged
@@ -133,7 +133,7 @@ def test_the_captions_of_the_charged_body_agree_with_the_exact_motion():
 
 
 def test_every_number_of_a_chapters_data_has_its_unit():
-    told = report._parameters(sweep("liquid-base")[""])
+    told = chapter._parameters(sweep("liquid-base")[""])
     assert told.startswith("D1 = 9.51 kg m², ") and "M3 = −0.06 N m; at t = 0: ω = (1, 0, 1) rad/s" in told
     assert all(re.search(r"= \S+ [A-Za-z1]", part) for part in told.split("; ")[0].split(", "))
 
@@ -142,9 +142,9 @@ def test_a_chapter_whose_case_is_missing_says_so_in_words(tmp_path, monkeypatch)
     monkeypatch.setattr(figures, "write", lambda *_: [])
     monkeypatch.setattr(figures, "of_paper", lambda *_: ())
     from dataclasses import replace
-    broken = replace(report.CHAPTERS[2], compared=(("top-that-is-not-there", ""),))
-    monkeypatch.setattr(report, "CHAPTERS", (broken,))
-    section = report.section("top", tmp_path)
+    broken = replace(chapter.CHAPTERS[2], compared=(("top-that-is-not-there", ""),))
+    monkeypatch.setattr(chapter, "CHAPTERS", (broken,))
+    section = chapter.section("top", tmp_path)
     assert "top-that-is-not-there.toml" in section["problem"] and section["sensible"] is None
 
 
@@ -152,7 +152,7 @@ def test_a_chapter_whose_case_is_missing_says_so_in_words(tmp_path, monkeypatch)
 def test_a_chapter_stands_in_the_report_with_errors_and_variant(tmp_path, monkeypatch):
     row = figures_top.FIGURES[5]
     monkeypatch.setattr(figures_top, "FIGURES", (row,))
-    section = report.section("top", tmp_path)
+    section = chapter.section("top", tmp_path)
     assert section["problem"] == "" and (tmp_path / section["sensible"]["file"]).is_file()
     page = html.render("chapter.html", chapter=section, claims=(), title=section["title"])
     for words in ("A fast top in a Newtonian field", "10 % from", "top-sensible.png", "figures/top-06.png"):

@@ -15,7 +15,6 @@ import pytest
 
 import stabilab
 from stabilab.papers import report
-from stabilab.papers import report as chapters
 from stabilab.papers.audit import findings_of
 from stabilab.papers.audit import page as audit_page
 from stabilab.papers.figures import catalogue as figures
@@ -120,7 +119,7 @@ def _of_little():
     patch = pytest.MonkeyPatch()
     patch.setattr(figures, "FIGURES", (figures.figure(9),))
     patch.setattr(figures, "NUMBERS", (9,))
-    patch.setattr(chapters, "CHAPTERS", ())
+    patch.setattr(report, "CHAPTERS", ())
     patch.setattr(report, "COSTS", (("What it costs <b>", "in time", _small_page),
                                    ("Nothing", "here", lambda cases, folder, **around: None)))
     patch.setattr(report, "audited_papers", lambda: ("constant-torque-gyrostat", "charged-axisymmetric-short"))
@@ -474,7 +473,7 @@ def test_the_page_of_a_case_is_the_same_alone_and_in_the_report_on_everything(tm
     own.pages([case], tmp_path / "one", None, own.Wanted(deep=False), **around)
     built = own.section("minor-axis-100", [case], tmp_path / "one" / own.FOLDER, own.Wanted(deep=False))
     (tmp_path / "all" / own.FOLDER).mkdir(parents=True)
-    chapters._cases([case], tmp_path / "all", {"case minor-axis-100": built}, [], around | {"command": "make report"})
+    report._cases([case], tmp_path / "all", {"case minor-axis-100": built}, [], around | {"command": "make report"})
     main = [re.search("<main.*</main>", path.read_text(encoding="utf-8"), re.S)[0].replace(f"{own.FOLDER}/", "")
             for path in (tmp_path / "one" / "index.html", tmp_path / "all" / own.FOLDER / "minor-axis-100.html")]
     assert main[0] == main[1] and len(main[0]) > 10_000

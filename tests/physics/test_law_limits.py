@@ -11,6 +11,7 @@ import stabilab
 from stabilab.answers.digits_run import best_reached
 from stabilab.answers.simulate import simulate
 from stabilab.case.read import load_all
+from stabilab.physics.body import Body
 from stabilab.physics.coefficients import content, liquid_torque
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
@@ -22,7 +23,7 @@ from stabilab.physics.effects.liquid_cavity import NEXT_TERM, LiquidCavity, pace
 from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.law_limits import along
-from stabilab.physics.scene import Body, Scene
+from stabilab.physics.scene import Scene
 from stabilab.show.text import headline
 from stabilab.theories.follow import follow
 from tests.shared import in_one_line

@@ -7,9 +7,10 @@ from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab.case.read import load_any
-from stabilab.show import labels, space, style
+from stabilab.show import labels, style
 from stabilab.show.plot import in_space, surfaces
 from stabilab.show.plot.subject import subject
+from stabilab.show.space import reach
 from stabilab.show.turns.band import outside
 from tests.shared import CASES
 
@@ -55,7 +56,7 @@ def test_a_curve_of_equilibria_goes_on_to_the_frame_beside_its_asymptote():
     assert np.degrees(right[1].min()) <= bottom and np.degrees(drawn[1].max()) >= top
     inside = right[:, np.degrees(right[1]) > bottom]
     steps = np.abs(np.diff(inside[1][np.argsort(inside[0])]))
-    assert np.degrees(steps.max()) <= 1.01 * space.CHORD * (top - bottom) / 2
+    assert np.degrees(steps.max()) <= 1.01 * reach.CHORD * (top - bottom) / 2
 
 
 @pytest.mark.parametrize("size", [1e-8, 1e-4, 1.0, 1e6])

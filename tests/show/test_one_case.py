@@ -19,7 +19,7 @@ from stabilab.show.plot.subject import subject
 from stabilab.show.report import one_case
 from stabilab.show.report.one_case import sections
 from stabilab.show.report.tables import equilibrium_table as table
-from stabilab.show.space import Box
+from stabilab.show.space.box import Box
 from stabilab.show.terminal import printed
 from stabilab.show.text import headline
 from stabilab.show.units import DEG, units_of

@@ -17,7 +17,7 @@ from stabilab.show.maps.picture import BEHIND
 from stabilab.show.plot import basins, over_time, turning
 from stabilab.show.plot import subject as subjects
 from stabilab.show.plot.subject import subject
-from stabilab.show.space import look
+from stabilab.show.space.drawing import look
 from stabilab.show.text import cost
 
 ROOT = Path(__file__).parents[2]

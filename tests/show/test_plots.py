@@ -15,10 +15,12 @@ from scipy.integrate import solve_ivp
 import stabilab
 from stabilab import errors
 from stabilab.case.read import read_text
-from stabilab.show import space, style
+from stabilab.show import style
 from stabilab.show.plot import path, subject, surfaces, to_file
 from stabilab.show.plot import subject as which
 from stabilab.show.plot.over_time import limit_marks
+from stabilab.show.space.box import Box
+from stabilab.show.space.reach import curves_of
 from stabilab.show.text import cost
 from tests import shared
 from tests.oracles.rigid import euler
@@ -379,7 +381,7 @@ def test_equilibria_are_found_at_rates_of_any_size(scale):
     points = np.array([point[0] for point, look in drawn.marks[:-1]]) / size  # the last is the start
     assert len(points) == 6 and np.abs(np.sort(np.abs(points), axis=1) - [0, 0, surfaces.LIFT]).max() < 1e-9
     assert {"stable equilibrium", "unstable equilibrium"} <= {text for text, _ in drawn.rows}
-    curves = space.curves_of(stabilab.equilibria(item.scene), space.Box((0.0,) * 3, (2 * scale,) * 3))
+    curves = curves_of(stabilab.equilibria(item.scene), Box((0.0,) * 3, (2 * scale,) * 3))
     axes = sorted((int(np.abs(line[0]).argmax()), text.split()[0], np.abs(line).max() > 1.9 * scale)
                   for text, line in curves)
     assert axes == [(0, "stable", True)] * 2 + [(1, "unstable", True)] * 2 + [(2, "stable", True)] * 2

@@ -6,7 +6,7 @@ import stabilab
 from stabilab.show.explore.pictures import unframed
 from stabilab.show.explore.session import Session
 from stabilab.show.plot.subject import subject
-from stabilab.show.space import limit_time, seen, spin_up_time
+from stabilab.show.space.span import limit_time, seen, spin_up_time
 
 CASES = ("minor-axis-100", "major-axis-captured", "middle-axis-spin-up", "middle-axis-plane-300", "cubesat-3u",
          "geostationary-22n", "upper-stage", "thruster-stuck-major-axis", "wheel-and-thruster", "off-axis-one",

@@ -6,7 +6,7 @@ import pytest
 
 from stabilab.show.plot.in_space import space_of
 from stabilab.show.plot.subject import subject
-from stabilab.show.space import Box, shifted
+from stabilab.show.space.box import Box, shifted
 from stabilab.show.turns import band
 from tests.oracles.rigid import euler
 from tests.shared import case as load
@@ -103,7 +103,7 @@ def test_ticks_that_differ_in_their_last_digits_alone_are_differences(ticks, tol
 
 def test_times_near_each_other_are_written_at_one_place():
     box = Box((0.0,) * 3, (1.0,) * 3)
-    from stabilab.show.space import _beside
+    from stabilab.show.space.drawing import _beside
     ring = lambda r, z: [(r * math.cos(a), r * math.sin(a), z) for a in np.linspace(0, 6.2, 40)]
     out = _beside([(ring(0.8, 0), "start"), (ring(0.01, 0), "later"), (ring(0.012, 0), "end")], box, (22, -55))
     assert sorted(text for _, text in out) == ["later; end", "start"]

@@ -15,7 +15,8 @@ from stabilab.verify import verify
 from stabilab.verify.diagram.check import check_diagram
 from stabilab.verify.diagram.claims import claims_of
 from stabilab.verify.diagram.equations import System, count_at, critical
-from stabilab.verify.numbers import MOST_BITS, Malformed, Root, Work, q, roots
+from stabilab.verify.numbers import Malformed, q
+from stabilab.verify.roots import MOST_BITS, Root, Work, roots
 from tests.shared import CASES
 from tests.verify.diagrams import certified, drawn, forgeries
 

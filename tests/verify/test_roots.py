@@ -7,8 +7,9 @@ from math import isqrt
 
 import pytest
 
-from stabilab.verify import numbers
-from stabilab.verify.numbers import Malformed, TooLarge, Work, real_roots
+from stabilab.verify import roots
+from stabilab.verify.numbers import Malformed
+from stabilab.verify.roots import TooLarge, Work, real_roots
 
 flint = pytest.importorskip("flint")
 
@@ -61,7 +62,7 @@ def test_a_rational_zero_is_exact_and_lies_within_its_own_bounds():
 
 
 def test_what_the_most_halvings_do_not_tell_apart_is_refused_with_the_reason(monkeypatch):
-    monkeypatch.setattr(numbers, "HALVINGS", 100)
+    monkeypatch.setattr(roots, "HALVINGS", 100)
     _, zero = real_zeros(squares(2))
     end = Fraction(isqrt(2 << 400), 1 << 200)
     with pytest.raises(Malformed, match="a bracket whose end 100 halvings do not tell from a zero"):

@@ -18,10 +18,11 @@ from ...orbit.extremes_arrays import KERNELS, settle_rows
 from ...orbit.fate_arrays import MARGINS
 from ...orbit.landscape import landscape
 from ...orbit.rows_kernel import BOX, PERIOD
+from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
 from ...physics.own_unit import natural
-from ...physics.scene import Body, Scene
+from ...physics.scene import Scene
 from ...tasks import Task, done
 from ...unreduced import enclosure
 from ...unreduced.spin_up import certificate

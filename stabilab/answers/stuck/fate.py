@@ -29,8 +29,9 @@ from ...numbers.vectors import Exact3, Float3, Number, cross, dot
 from ...orbit.fate import REASONS, Basis
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
+from ...physics.body import Body
 from ...physics.effects import effect_class
-from ...physics.scene import Body, Scene, rests
+from ...physics.scene import Scene, rests
 from ...reasons import Reason, Reasoned, Sentence
 from ...unreduced.enclosure import proved
 from ...unreduced.spin_up.follow import spin_up, spin_up_many

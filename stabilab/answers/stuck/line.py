@@ -41,8 +41,9 @@ from ...orbit.fate import fate_of
 from ...orbit.one_orbit import Orbit
 from ...orbit.reduction import Reduction, reduce
 from ...orbit.result import Fate
+from ...physics.body import Body
 from ...physics.effects import effect_class
-from ...physics.scene import Body, Scene, Turn, aligned
+from ...physics.scene import Scene, Turn, aligned
 from ..caveats import STEADY
 
 BITS = 128

@@ -22,9 +22,10 @@ from ...numbers.affine import EPS, LEAST, Affine, root, sign_over, squared
 from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes, principal_axes, without_trace
 from ...numbers.vectors import Exact3, Float3, Number, Triple
+from ...physics.body import Body
 from ...physics.coefficients import to_scaled, torque_from_mu
 from ...physics.effects import effect_class
-from ...physics.scene import AnyScene, Body, QuadraticForm, ScaledGyrostat, Scene, euler_form, scaled_form
+from ...physics.scene import AnyScene, QuadraticForm, ScaledGyrostat, Scene, euler_form, scaled_form
 
 # --- The box
 TRACE = Fraction(1, 1 << 180)  # of the largest number: what axes good to 240 bits leave, there and back

@@ -16,9 +16,10 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
+from ...physics.body import Body
 from ...physics.effects import effect_class
 from ...physics.equations import derive
-from ...physics.scene import Body, Scene
+from ...physics.scene import Scene
 from ...theories.printed.claims import FormulaError, Paper, Row, parse, sides
 from ...theories.printed.evaluate import Evaluator, Setting, Undefined, precise
 from . import measured, trends

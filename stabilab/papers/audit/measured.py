@@ -11,8 +11,8 @@ import numpy as np
 
 from ...answers.simulate import trajectory
 from ...equilibrium.stability import invariants
+from ...physics.body import Body
 from ...physics.coefficients import scaling
-from ...physics.scene import Body
 from .. import table as paper
 from ..printed_integrals import height
 from .other_papers import TESTS as OTHERS

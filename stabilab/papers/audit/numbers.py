@@ -13,8 +13,8 @@ import numpy as np
 
 from ...answers.simulate import trajectory
 from ...errors import InputError
+from ...physics.body import Body
 from ...physics.coefficients import scaling
-from ...physics.scene import Body
 from ...theories.printed.claims import Row, parse
 from ...theories.printed.evaluate import Evaluator, precise
 from .. import table as paper

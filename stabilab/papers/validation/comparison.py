@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
 from ...numbers.balls import Digits, working
+from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
-from ...physics.scene import Body, Scene
+from ...physics.scene import Scene
 from ...representation import values_of
 from ...show.report import html
 from ...show.terminal import lettered

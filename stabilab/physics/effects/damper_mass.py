@@ -16,8 +16,8 @@ from .base import Effect, Part, of_a_damper
 if TYPE_CHECKING:
     from types import SimpleNamespace
 
+    from ..body import Body
     from ..equations import MotionView
-    from ..scene import Body
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,8 @@ from ...reasons import broad
 from ...verify.numbers import shown
 from ..assumed import Assumed
 from ..data import plain
-from ..space import limit_time, packed
+from ..space.drawing import packed
+from ..space.span import limit_time
 from ..turns.band import Long
 from ..units import Units, with_unit
 

@@ -34,11 +34,14 @@ from ...verify import verify
 from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
-from .. import frame, limiting, space
+from .. import frame, limiting
 from ..assumed import assumed
 from ..axes import with_moments
 from ..report.tables import tiles
-from ..space import natural, seen
+from ..space import drawing
+from ..space.box import box_of
+from ..space.reach import PLACES, branches_of, curves_of
+from ..space.span import natural, seen
 from ..terminal import capital, lettered, written
 from ..text.classification import called
 from ..text.headline import headline, judged, look, two_lines
@@ -91,7 +94,7 @@ def equilibrium_rows(result: Equilibria, units: Units) -> dict[str, Any]:
 
 PLAIN = (18, 17)  # rows of a branch, and columns of half of it, while a slider moves
 # of a piece of a curve of equilibria: to find what is in the box, and to draw it
-POINTS = {True: (16, 40), False: space.PLACES}
+POINTS = {True: (16, 40), False: PLACES}
 TURNS = {True: 240.0, False: 2400.0}  # rad of turn at most that are drawn
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
 WORKED_OUT = "keep still, and this motion is worked out"
@@ -244,7 +247,7 @@ class Session:
         """(what is drawn of a motion of many turns, the places from which that is made, whether of all of it:
         once the slider rests); None of one of few."""
         reached = supposed and supposed.time
-        path = space.near_part(times, path, result, reached)
+        path = drawing.near_part(times, path, result, reached)
         times = times[:len(path)]
         key = case.scene, case.state, until, moving, result is None
         if result is not None and not moving and present("numpy") and band.often(path) > band.MANY:
@@ -256,30 +259,30 @@ class Session:
         return None if long is None else (long, path, False)
 
     def _space(self, bag, case, twin, result, at_rest, times, path, request, moving, supposed, long):
-        nearby = (space.near_part(times, path, result, supposed and supposed.time) if long is None
+        nearby = (drawing.near_part(times, path, result, supposed and supposed.time) if long is None
                   else long[1])
         bare, ghost = (None, False) if twin is None else _without_tilt(twin)
-        marks = space.marks_of(case.state, result, at_rest)
-        limit = space.limit_of(case, supposed)
-        rests = [*space.beside_limit(limit, nearby), *([] if moving else space.nearest(at_rest, nearby))]
-        box = space.box_of(nearby, marks + rests, reaching=True, asked=request, kept=moving or ghost)
+        marks = drawing.marks_of(case.state, result, at_rest)
+        limit = drawing.limit_of(case, supposed)
+        rests = [*drawing.beside_limit(limit, nearby), *([] if moving else drawing.nearest(at_rest, nearby))]
+        box = box_of(nearby, marks + rests, reaching=True, asked=request, kept=moving or ghost)
         branches, text = (), pictures.why(case.scene)
         if bare is not None:  # as far as the box reaches
             reach = self._kept.get("reach", (None, REACH))[1]
-            branches, text, far = self._once("branches", (bare, box, moving), lambda: space.branches_of(
+            branches, text, far = self._once("branches", (bare, box, moving), lambda: branches_of(
                 bare, box, plain=PLAIN if moving else None, reach=reach))
             self._kept["reach"], text = (None, far), capital(text)
         names = [component.replace("omega", "ω") for component in case.scene.components]
         known = self._once("places", (case.scene, at_rest is None), dict)
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
-                            lambda: space.curves_of(at_rest, box, *POINTS[moving], known))
-        drawn = space.space(names, self.units.rates, box, branches, nearby, marks, curves, text,
+                            lambda: curves_of(at_rest, box, *POINTS[moving], known))
+        drawn = drawing.space(names, self.units.rates, box, branches, nearby, marks, curves, text,
                       " without the tilt" * ghost, limit, long and long[0])
         if ghost:
             text = ("No separatrix is known for a torque off the axes"
                      + (": the surface drawn is that of the torque without its tilt" if drawn.branches
                         else ""))
-        return space.data(drawn, partial(bag.add, "int16")) | {
+        return drawing.data(drawn, partial(bag.add, "int16")) | {
             "words": text, "box": {"middle": box.middle, "half": box.half}}
 
     def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
@@ -297,7 +300,7 @@ def _named(units: Units) -> list[str]:
 def _length(case: Case, result: Motion | None, form: QuadraticForm | None, moving: bool,
             reached: float | None) -> tuple[float, str]:
     """(how far a motion is drawn, what is said where that is less than every other view shows): so many
-    radians of turn at most. form: its rates, where they are quadratic; reached: as of `space.seen`."""
+    radians of turn at most. form: its rates, where they are quadratic; reached: as of `seen`."""
     rate, torque = math.hypot(*case.state), math.hypot(*form.coefficients[3]) if form is not None else 0.0
     radian = 1.0 / max(rate, math.sqrt(torque)) if rate or torque else 1.0
     largest, alone = TURNS[moving] * radian, natural(case.scene, case.state)

@@ -12,7 +12,7 @@ from .. import endings, style
 from ..plot import basins as basin_picture
 from ..units import Units, units_of
 from . import atlas, atlas_picture, basins, sweep
-from .picture import read
+from .sweep_file import read
 
 PAGES = (".html",)
 

@@ -12,8 +12,10 @@ from ...answers.equilibria import once_stopped
 from ...equilibrium.result import Equilibria
 from ...errors import InputError
 from .. import style
-from ..space import Box, Space, curves_of, look, marks_of, spread
-from ..space import space as drawn_in
+from ..space.box import Box
+from ..space.drawing import Space, look, marks_of
+from ..space.drawing import space as drawn_in
+from ..space.reach import curves_of, spread
 from ..units import number as in_digits
 from . import canvas, in_space
 from . import subject as subjects

@@ -14,28 +14,10 @@ from ...equilibrium.result import Equilibria, EquilibriumCurve
 from ...errors import StabilabError
 from ...reasons import number
 from .. import style
-from ..space import (
-    EVEN,
-    FLAT,
-    SHAPE,
-    VIEWS,
-    WHOLE,
-    Box,
-    Space,
-    across,
-    beside_limit,
-    box_of,
-    branches_of,
-    curves_of,
-    limit_of,
-    look,
-    marks_of,
-    near_part,
-    nearest,
-    numbers,
-    shifted,
-)
-from ..space import space as drawn_in
+from ..space.box import EVEN, FLAT, WHOLE, Box, box_of, numbers, shifted
+from ..space.drawing import VIEWS, Space, across, beside_limit, limit_of, look, marks_of, near_part, nearest
+from ..space.drawing import space as drawn_in
+from ..space.reach import SHAPE, branches_of, curves_of
 from ..turns.band import Long, often
 from ..units import number as shortened
 from . import canvas

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..space import near_part
+from ..space.drawing import near_part
 from ..turns.band import (
     APIECE,
     BAND,

@@ -24,7 +24,7 @@ from ...reasons import broad
 from ...theories.theory import side_by_side
 from .. import style
 from ..assumed import Assumed
-from ..space import limit_time
+from ..space.span import limit_time
 from ..text import cost
 from ..text.stuck import answer_line, row_name
 from ..units import SHORT, Units, bracket, number, with_unit

@@ -32,10 +32,10 @@ from ...physics.symmetric_top import SymmetricTop
 from ...theories.follow import models_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
-from .. import space
 from ..assumed import Assumed, assumed
 from ..axes import PLAIN, Axes, axes_of
 from ..picture_kinds import KINDS
+from ..space.span import limit_time, natural, seen
 from ..text import headline
 from ..units import SYSTEMS, Units, suited
 
@@ -148,7 +148,7 @@ class Subject:
     @cached_property
     def seen(self) -> tuple[float, ...]:
         """(from, to): the span that its pictures show, in the scene's time."""
-        return self.asked or space.seen(self.span, self.motion, space.natural(self.scene, self.state),
+        return self.asked or seen(self.span, self.motion, natural(self.scene, self.state),
                                         self.assumed_time)
 
     @cached_property
@@ -156,7 +156,7 @@ class Subject:
         """The limit to which pictures are drawn where the case states none."""
         if self.state is None:
             return None
-        until = max(self.span or (0.0, space.natural(self.scene, self.state)))
+        until = max(self.span or (0.0, natural(self.scene, self.state)))
         return assumed(self.case, self.scene, self.state, self.motion, lambda rate, end: time_to(
             self.scene, self.start, rate=rate, t_max=end, work=0), until)
 
@@ -298,7 +298,7 @@ def _wheel(item: Subject) -> str:
         return "it is drawn of a body with wheels and a torque alone"
     if item.case is None or not item.case.wheels:
         return "the case has no wheel of its own: describe it in a table [[wheels]]"
-    return "the motion is not known to reach a limit" if space.limit_time(item.motion) is None else _far(item)
+    return "the motion is not known to reach a limit" if limit_time(item.motion) is None else _far(item)
 
 
 def bodily(item: Subject) -> Any:

@@ -16,7 +16,8 @@ from ...numbers.vectors import dot
 from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from ...physics.states import body_momentum
 from .. import style
-from ..space import Box, spread
+from ..space.box import Box
+from ..space.reach import spread
 from ..units import number, with_unit
 from . import canvas, in_space
 from . import subject as subjects

@@ -34,7 +34,7 @@ from ..plot.in_space import space_of
 from ..plot.over_time import file_axes
 from ..plot.path import along
 from ..plot.subject import subject
-from ..space import data
+from ..space.drawing import data
 from ..terminal import capital, printed, some
 from ..text import percentiles
 from ..text.badge import badge

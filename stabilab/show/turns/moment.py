@@ -3,7 +3,7 @@ begins to spin up for good."""
 from __future__ import annotations
 
 from ...orbit.result import Fate, Motion
-from ..space import limit_time, spin_up_time
+from ..space.span import limit_time, spin_up_time
 
 LIMIT, CROSSES, OVER, CERTAIN = "limit", "separatrix crossed", "turning over", "spin-up certain"
 SETTLES, TENTH, ASSUMED = "settled", "a tenth left", "assumed limit"

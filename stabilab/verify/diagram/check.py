@@ -10,7 +10,8 @@ from typing import Any
 
 from flint import fmpq_poly
 
-from ..numbers import TOO_LARGE, Root, TooLarge, Work, brief, exact_sign, q, roots
+from ..numbers import brief, exact_sign, q
+from ..roots import TOO_LARGE, Root, TooLarge, Work, roots
 from .claims import Claims, Event
 from .equations import Count, Equations, System, count_at, critical, in_unknowns
 

@@ -26,7 +26,8 @@ from typing import Any
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
-from ..numbers import AHEAD, Root, Work, bits, written_out
+from ..numbers import AHEAD, written_out
+from ..roots import Root, Work, bits
 from .claims import Claims
 
 

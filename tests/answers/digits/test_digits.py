@@ -81,8 +81,9 @@ def test_extremes_without_a_reduction_agree_with_many_digits_over_the_span():
 
 def test_the_period_of_a_closed_motion_without_a_reduction_is_its_return_in_many_digits():
     # a wheel along all three axes; the return of tests/oracles/taylor.py is its own recursion in mpmath
+    from stabilab.physics.body import Body
     from stabilab.physics.effects.gyrostat import Gyrostat
-    from stabilab.physics.scene import Body, Scene
+    from stabilab.physics.scene import Scene
     from tests.oracles.taylor import integrate_checked
     scene, start = Scene(Body((2, 3, 4)), Gyrostat((0.5, 0.25, 1.0))), (1.0, 0.5, 0.25)
     told = ask("period", scene, start, 20)

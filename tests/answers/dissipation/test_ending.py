@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from stabilab import Body, LiquidCavity, Scene, ViscousDamper, flat_spin, load, motion, when
 from stabilab.answers.dissipation import flat_spin as flat_spins
-from stabilab.show import space
+from stabilab.show.space.span import seen
 from tests.oracles.rigid import damped, euler, with_a_direction
 
 CASE = """[body]
@@ -242,7 +242,7 @@ def test_python_has_the_end(tumbling):
 
 def test_pictures_go_past_the_end(tumbling):
     found = load(tumbling).motion()
-    assert space.seen((0.0, 10.0), found, 1.0)[1] > found.ending.until == pytest.approx(926.07, abs=0.01)
+    assert seen((0.0, 10.0), found, 1.0)[1] > found.ending.until == pytest.approx(926.07, abs=0.01)
 
 
 def test_the_tiles_of_a_page_say_when(tumbling):

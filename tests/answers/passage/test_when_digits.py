@@ -9,9 +9,10 @@ import pytest
 
 from stabilab import extremes, load, when
 from stabilab.errors import InputError
+from stabilab.physics.body import Body
 from stabilab.physics.effects.constant_torque import ConstantTorque
 from stabilab.physics.effects.gyrostat import Gyrostat
-from stabilab.physics.scene import Body, Scene
+from stabilab.physics.scene import Scene
 from tests.oracles.model import physical
 from tests.oracles.taylor import integrate_checked
 from tests.shared import CASES

@@ -18,9 +18,10 @@ from stabilab.orbit.period import free_quartic, period_ball, real_period, time_f
 from stabilab.orbit.period_sum import plan, summed
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.result import Fate
+from stabilab.physics.body import Body
 from stabilab.physics.effects.constant_torque import ConstantTorque
 from stabilab.physics.effects.gyrostat import Gyrostat
-from stabilab.physics.scene import Body, Scene
+from stabilab.physics.scene import Scene
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled
 from tests.oracles.taylor import integrate_checked

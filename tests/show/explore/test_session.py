@@ -9,9 +9,9 @@ from stabilab import load, motion, separatrix
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.orbit.phase_plane import phase_plane
-from stabilab.show import space
 from stabilab.show.explore.pictures import plane_of, unframed
 from stabilab.show.explore.session import FOLLOWED, Session, Stopped
+from stabilab.show.space import reach
 from stabilab.show.text.headline import headline
 from tests.shared import MOVING
 from tests.shared import case as case_of
@@ -207,10 +207,10 @@ def test_a_curve_of_equilibria_is_told_by_a_state_on_each_piece():
 
 def test_the_places_of_a_curve_are_formed_once_while_the_box_grows_with_the_start(monkeypatch):
     """Counted; the places drawn are those of a session that begins with the box as it is in the end."""
-    session, formed, form = Session(load(MOVING)), [], space._place
+    session, formed, form = Session(load(MOVING)), [], reach._place
     own = float(session.about()["groups"][2]["controls"][0]["value"])
     box = ask(session)[0]["space"]["box"]
-    monkeypatch.setattr(space, "_place", lambda curve, t: formed.append((curve.name, t)) or form(curve, t))
+    monkeypatch.setattr(reach, "_place", lambda curve, t: formed.append((curve.name, t)) or form(curve, t))
     for n in range(3, 9):
         last = {"start": [repr(own * n), None, None], "moving": True}
         told, numbers = ask(session, box=box, **last)

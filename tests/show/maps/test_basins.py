@@ -12,7 +12,7 @@ from matplotlib.colors import to_rgb
 
 import stabilab
 from stabilab.errors import InputError
-from stabilab.show.maps import basins, to_file
+from stabilab.show.maps import basins, sweep_file, to_file
 from stabilab.show.maps import picture as pictures
 from stabilab.show.plot import basins as picture
 from tests.shared import CASES
@@ -53,7 +53,7 @@ def test_csv_has_a_line_for_each_cell_and_its_cells_cover_the_plane(minor):
 def test_a_file_holds_the_basins_and_plot_draws_it(minor, tmp_path):
     path = tmp_path / "basin.nc"
     to_file.write_basins(minor, to_file.data_of(to_file.checked([path])))
-    again = basins.opened(pictures.loaded(path))
+    again = basins.opened(sweep_file.loaded(path))
     assert basins.text(again) == basins.text(minor) and np.array_equal(again.separatrix(), minor.separatrix())
     one, two = pictures.write(path, tmp_path / "one.png"), picture.write(minor, tmp_path / "two.png")
     assert one.read_bytes() == two.read_bytes() and one.read_bytes().startswith(b"\x89PNG")

@@ -12,9 +12,8 @@ from stabilab.maps.plan import planned
 from stabilab.maps.run import changes
 from stabilab.orbit.result import Fate
 from stabilab.show import style
-from stabilab.show.maps import picture
-from stabilab.show.maps import picture as curves
-from stabilab.show.maps import picture as field
+from stabilab.show.maps import picture, sweep_file
+from stabilab.show.units import units_of
 from tests.shared import CASES, MOVING
 
 xarray = pytest.importorskip("xarray")
@@ -57,7 +56,7 @@ def test_pieces_of_the_boundary_close_a_circle():
         step = (x[1] - x[0], y[1] - y[0])[along]
         target = np.sqrt(1.2 - other**2) * np.where(low + step / 2 > 0, 1, -1)
         return (target - low) / step
-    pieces = field.segments_of(inside.astype(np.int8), x, y, way)
+    pieces = picture.segments_of(inside.astype(np.int8), x, y, way)
     assert np.abs((pieces**2).sum(axis=-1) - 1.2).max() < 1e-12
     assert np.linalg.norm(pieces[:, 1] - pieces[:, 0],
                           axis=1).sum() == pytest.approx(2 * np.pi * np.sqrt(1.2), rel=0.01)
@@ -87,7 +86,7 @@ def _refused(path):
     path = path / "folder.nc"
     path.mkdir()
     with pytest.raises(InputError) as error:
-        picture.opened(path)
+        sweep_file.opened(path)
     return str(error.value)
 
 
@@ -120,11 +119,11 @@ def test_a_column_without_a_finite_number_is_refused_and_not_drawn_empty(tmp_pat
 
 def test_a_column_named_is_drawn_alone_along_one_axis(tmp_path):
     data = sweep(MINOR, {"x[1]": "1:2:3"}, answer="fate,margin,period", out=tmp_path / "line.nc")
-    plan = picture.opened(tmp_path / "line.nc")[1]
+    plan = sweep_file.opened(tmp_path / "line.nc")[1]
     with style.drawing() as plt:
         assert [ax.get_ylabel()
-                for ax in curves.curves(data, plan, "period", "x_1", None, plt).axes] == ["period"]
-        assert len(curves.curves(data, plan, "fate", "x_1", None, plt).axes) == 2
+                for ax in picture.curves(data, plan, "period", "x_1", None, plt).axes] == ["period"]
+        assert len(picture.curves(data, plan, "fate", "x_1", None, plt).axes) == 2
 
 
 @pytest.mark.slow
@@ -151,26 +150,26 @@ def test_rates_and_times_of_a_map_have_the_units_of_the_case_or_those_asked_for(
     (tmp_path / "my.toml").write_text(f"{MOVING}span = [0, 300]\n")
     data = sweep(tmp_path / "my.toml", {"angular_velocity[1]": "1:3:3 deg/s"},
                  answer="fate,extremes,period,when", rate="10 deg/s", out=tmp_path / "a.nc")
-    plan = picture.opened(tmp_path / "a.nc")[1]
-    told = picture.in_units(data, picture.units_of(plan.case, None))
+    plan = sweep_file.opened(tmp_path / "a.nc")[1]
+    told = sweep_file.in_units(data, units_of(plan.case, None))
     assert (told.least.attrs["units"], told.period.attrs["units"],
             data.least.attrs["units"]) == ("deg/s", "s", "rad/s")
     assert told.least.values == pytest.approx(
         np.degrees(data.least.values)) and told.period.values == pytest.approx(data.period.values)
-    slow = picture.in_units(data.assign(period=(data.period * 1000).assign_attrs(data.period.attrs)),
-                            picture.units_of(plan.case, "deg"))
+    slow = sweep_file.in_units(data.assign(period=(data.period * 1000).assign_attrs(data.period.attrs)),
+                               units_of(plan.case, "deg"))
     assert slow.period.attrs["units"] == "h" and slow.period.values == pytest.approx(data.period.values / 3.6)
-    si = picture.in_units(data, picture.units_of(plan.case, "si"))
+    si = sweep_file.in_units(data, units_of(plan.case, "si"))
     assert si.least.attrs["units"] == "rad/s" and (si.least.values == data.least.values).all()
     with style.drawing() as plt:
-        assert curves.curves(told, plan, "least", data.least.dims[0], None,
+        assert picture.curves(told, plan, "least", data.least.dims[0], None,
                              plt).axes[0].get_ylabel() == "extremes (deg/s)"
 
 
 def test_a_map_says_what_its_white_cells_mean_and_is_refused_where_all_are(tmp_path):
     data = sweep(MINOR, {"x[1]": "0:4:3", "x[3]": "0:100:3"}, answer="fate,period,extremes",
                  out=tmp_path / "two.nc")
-    plan = picture.opened(tmp_path / "two.nc")[1]
+    plan = sweep_file.opened(tmp_path / "two.nc")[1]
     assert {0, 1} == set(data.fate.values.ravel().tolist())  # some stay, some spin up and have no period
     with style.drawing() as plt:
         figure = picture.drawn(data, plan, "period", None, plt)
