@@ -166,9 +166,9 @@ def in_chunks(label: Callable[[np.ndarray, dict[str, np.ndarray]], int], states:
     return FateResult(**out, precise=precise)  # type: ignore[arg-type]  # the columns alone
 
 
-def write_row(out: Mapping[str, np.ndarray], index: int | np.integer, label: Fate, reason: Basis,
+def write_row(out: Mapping[str, np.ndarray], index: int | np.integer | np.ndarray, label: Fate, reason: Basis,
               margin: float, axis: int = 0, sense: int = 0) -> None:
-    """Put the fate of one state into the columns."""
+    """Put a fate into the columns, of one state or of all those of an array of indices."""
     spin = label == Fate.SPIN_UP
     out["labels"][index], out["reasons"][index], out["margins"][index] = label, reason, margin
     out["axis"][index], out["sense"][index] = axis * spin, sense * spin
@@ -411,9 +411,10 @@ def _label_chunk(scene: AnyScene, land: Landscape | None, states: np.ndarray, ou
     np.multiply(margins, land.reduction.energy_unit, out=out["margins"])
     out["reasons"][:] = Basis.WALLS if land.potential.walled else Basis.TORQUE_FREE
     _mark_spins(land, out)
-    for index in np.nonzero(flat_mask(land, states))[0]:
-        write_row(out, index, Fate.SPIN_UP, Basis.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
-        doubtful[index] = False
+    flat = np.nonzero(flat_mask(land, states))[0]
+    if flat.size:
+        write_row(out, flat, Fate.SPIN_UP, Basis.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
+        doubtful[flat] = False
     return doubtful
 
 

@@ -152,6 +152,18 @@ def test_spin_about_a_torque_that_no_other_rate_disturbs_grows_for_ever(axis, mo
         assert box[1:].tolist() == [[0, 0], [0, 0]]
 
 
+def test_pure_spins_of_a_sphere_are_written_at_once(monkeypatch):
+    """D (w1', w2', w3') = (0, M2, 0): all states spin up about axis 2, whatever their rates."""
+    scene, states, calls = Scene(Body((2, 2, 2)), ConstantTorque((0, -0.5, 0))), sample("minor physical", 300), []
+    write = fate.write_row
+    monkeypatch.setattr(fate, "write_row", lambda out, index, *row: (calls.append(np.size(index)),
+                                                                     write(out, index, *row)))
+    found = stabilab.fate(scene, states)
+    assert calls == [300] and found.precise == 0 and (found.margins == -np.inf).all()
+    assert {(Fate.SPIN_UP, Basis.PURE_SPIN, 2, -1)} == set(zip(found.labels.tolist(), found.reasons.tolist(),
+                                                              found.axis.tolist(), found.sense.tolist()))
+
+
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("name",
                          ["minor scaled +", "minor scaled -", "minor physical", "major physical, other sign",
