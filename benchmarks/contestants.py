@@ -30,18 +30,19 @@ def turning_system(scene, heyoka):
 class BatchFate:
     """Integrate in batches until each state is decided: a full turn ahead is spin-up, the third reversal of
     the turn is bounded (two reversals enclose the well). Decided states leave their lane at once
-    (compaction)."""
+    (compaction). A motion that leaves the range of doubles stays undecided, and after so many steps of the
+    batch in all what is left."""
 
-    def __init__(self, scene, tolerance=1e-15, batch=8):
+    def __init__(self, scene, tolerance=1e-15, batch=8, steps=None):
         import heyoka
         _, system, self.axis, self.turn = turning_system(scene, heyoka)
         self.sense = np.sign(scene.quadratic().coefficients[3][self.axis])
-        self.batch = batch
+        self.batch, self.steps = batch, steps
         self.integrator = heyoka.taylor_adaptive_batch(system, np.zeros((4, batch)), tol=tolerance,
                                                        high_accuracy=False)
 
     def __call__(self, states):
-        """Labels (n,): 0 bounded, 1 spin-up."""
+        """Labels (n,): 0 bounded, 1 spin-up, -1 undecided."""
         n, batch, ta, axis, turn = len(states), self.batch, self.integrator, self.axis, self.turn
         start_sign = np.sign(self.sense * states[:, axis])
         labels = np.full(n, -1, np.int8)
@@ -54,17 +55,20 @@ class BatchFate:
                 state[:3, i], state[3, i] = states[following], 0.0
                 lane[i], sign[i], reversals[i], lowest[i] = following, start_sign[following], 0, 0.0
                 following += 1
-        while (lane >= 0).any():
+        taken = 0
+        while (lane >= 0).any() and taken != self.steps:
             ta.step()
+            taken += 1
             rate, theta = self.sense * state[axis], state[3]
             lowest = np.minimum(lowest, theta)
             turned = (np.sign(rate) != sign) & (rate != 0)
             reversals += turned
             sign = np.where(turned, np.sign(rate), sign)
-            done = (lane >= 0) & ((rate > 0) & (theta > lowest + turn) | (reversals >= 3))
+            lost = theta != theta
+            done = (lane >= 0) & ((rate > 0) & (theta > lowest + turn) | (reversals >= 3) | lost)
             if done.any():
                 for i in np.nonzero(done)[0]:
-                    labels[lane[i]] = 0 if reversals[i] >= 3 else 1
+                    labels[lane[i]] = -1 if lost[i] else 0 if reversals[i] >= 3 else 1
                     if following < n:
                         state[:3, i], state[3, i] = states[following], 0.0
                         lane[i], sign[i], reversals[i], lowest[i] = following, start_sign[following], 0, 0.0
@@ -158,12 +162,13 @@ class EventExtremes:
 
 class SceneEvents:
     """Extremes over one period of any scene with its torque on a principal axis: events at the zeros of each
-    rate, stopped at the third reversal of the turn."""
+    rate, stopped at the third reversal of the turn, or after so many steps."""
 
-    def __init__(self, scene, tolerance=1e-16):
+    def __init__(self, scene, tolerance=1e-16, steps=100_000):
         import heyoka
         x, system, axis, _ = turning_system(scene, heyoka)
         self.values, self.reversals, across = [], 0, [k for k in range(3) if k != axis]
+        self.steps = steps
 
         def note(ta, time, sign, component):
             ta.update_d_output(time)
@@ -174,8 +179,10 @@ class SceneEvents:
             self.values += [(k, ta.state[k]) for k in across]
             self.reversals += 1
             return self.reversals < 3
+        form = scene.quadratic()
+        changing = [any(part[k] for part in (form.kappa, form.rho, form.sigma)) for k in range(3)]
         events = [heyoka.nt_event(rate, lambda ta, t, s, k=k: note(ta, t, s, k)) for k,
-                  (_, rate) in enumerate(system[:3])]
+                  (_, rate) in enumerate(system[:3]) if changing[k]]  # heyoka takes no constants
         self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, nt_events=events,
                                                  t_events=[heyoka.t_event(x[axis], callback=turned)])
 
@@ -185,7 +192,7 @@ class SceneEvents:
             ta.time, ta.state[:], self.reversals = 0.0, [*state, 0.0], 0
             ta.reset_cooldowns()
             self.values.clear()
-            ta.propagate_until(1e6, max_steps=100_000)
+            ta.propagate_until(1e9, max_steps=self.steps)
             out[n] = np.stack([state, state], axis=1)
             for k, value in self.values:
                 out[n, k] = min(out[n, k, 0], value), max(out[n, k, 1], value)
@@ -194,12 +201,12 @@ class SceneEvents:
 
 class TurningTimes:
     """Periods of any scene with its torque on a principal axis: one terminal event at each reversal of the
-    turn, stopped at the third."""
+    turn, stopped at the third, or after so many steps."""
 
-    def __init__(self, scene, tolerance=1e-16):
+    def __init__(self, scene, tolerance=1e-16, steps=100_000):
         import heyoka
         x, system, axis, _ = turning_system(scene, heyoka)
-        self.times = []
+        self.times, self.steps = [], steps
 
         def turned(ta, sign):
             self.times.append(ta.time)
@@ -213,7 +220,7 @@ class TurningTimes:
             ta.time, ta.state[:] = 0.0, [*state, 0.0]
             ta.reset_cooldowns()
             self.times.clear()
-            ta.propagate_until(1e6, max_steps=100_000)
+            ta.propagate_until(1e9, max_steps=self.steps)
             periods[n] = self.times[2] - self.times[0] if len(self.times) > 2 else np.nan
         return periods
 

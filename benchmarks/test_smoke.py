@@ -3,7 +3,9 @@ import pytest
 
 pytest.importorskip("heyoka")
 
-from . import fates, orbit_extremes, record, spin_up, spin_up_sample, suite
+from stabilab.orbit.reduction import reduce
+
+from . import fates, orbit_extremes, random_scenes, record, spin_up, spin_up_sample, suite
 
 # they compile kernels, for half a minute and more where no cache is
 SLOW = ("scenes", "surfaces", "orbit_extremes", "arrays", "digits", "maps", "proofs", "spin_up",
@@ -38,6 +40,23 @@ def test_events_agree_with_the_roots_of_the_potential():
 def test_spin_up_is_timed_beside_heyokas_own_batches():
     row = spin_up.pace(scenes=1, states=24, times=50.0, steps=300, seed=2)
     assert row.ours > 0 and row.theirs > 0 and row.error.endswith(" undecided")
+
+
+def test_the_sample_of_every_kind_holds_what_its_kinds_say():
+    """The moments as they stand in Euler's equations: pairs equal to a share of them, exactly or not."""
+    sample = random_scenes.of_every_kind()
+    assert len(sample) == random_scenes.EVERY and sample[7:9] == random_scenes.of_every_kind(2, 7)
+    assert {one.kind for one in sample} == set(random_scenes.DRAWS)
+    assert 15 < sum(not any(one.wheel) for one in sample) < 60
+    for one in sample:
+        axis = next(i for i in range(3) if one.torque[i])
+        about, others = one.moments[axis], [one.moments[axis - 1], one.moments[axis - 2]]
+        apart = min(abs(about - other) / other for other in others)
+        assert max(one.moments) <= sum(one.moments) / 2 and reduce(one.scene) is not None
+        assert one.kind != "near" or 0.9e-13 < apart < 1.1e-3
+        assert (apart == 0) == (one.kind in ("across", "sphere"))
+        assert (others[0] == others[1]) == (one.kind in ("along", "sphere"))
+        assert one.kind != "right" or about * sum(others) == others[0] ** 2 + others[1] ** 2
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from benchmarks.random_scenes import SEED, drawn
+from benchmarks.random_scenes import drawn
 from stabilab import Fate
 from stabilab.numbers.numba_door import installed
 from stabilab.orbit.extremes import precise_extremes
@@ -30,23 +30,6 @@ numbers = pytest.mark.parametrize("number",
                                   [*DEFAULT, *later(n for n in range(SCENES) if n not in DEFAULT)])
 
 
-def beside_and_anywhere(one, count):
-    """(count, 3) states: a half of the sample's, a half of which has the rate about the torque's axis with
-    which its barrier is just reached, off by 1e-3 to
-    1e-12 of itself; all where there is a barrier that high."""
-    states, rng, axis = one.states(count), np.random.default_rng([SEED, one.number,
-                                                                  1]), next(i for i in range(3)
-                                                                            if one.torque[i])
-    still = states.copy()
-    still[:, axis] = 0.0
-    height = stabilab.fate(one.scene, still).margins
-    near = (np.arange(count) % 2 == 0) & np.isfinite(height) & (height > 0)
-    off = 1 + rng.choice((-1, 1), count) * 10.0 ** rng.uniform(-12, -3, count)
-    states[near,
-           axis] = (np.copysign(np.sqrt(2 * np.abs(height) / one.moments[axis]), states[:, axis]) * off)[near]
-    return states
-
-
 def alone(scene, state):
     """(label, axis, sense, margin, extremes, period) of one state, all but the label from balls."""
     orbit = Orbit(reduce(scene), state)
@@ -61,7 +44,7 @@ def disagreements(number, count):
     of all."""
     one = drawn(number + 1)[number]
     scene, axis = one.scene, next(i for i in range(3) if one.torque[i])
-    states = beside_and_anywhere(one, count)
+    states = one.beside(one.states(count))
     singles = [alone(scene, state) for state in states.tolist()]
     wrong, largest = [], 0.0
     for fast in FAST:
