@@ -52,6 +52,9 @@ def text(summary: dict[str, Any], out: Path) -> str:
 
 
 # --- Meshes
+MULTIPLIER = 0x9E3779B97F4A7C15  # any large odd one: of three coordinates in one number
+
+
 @dataclass(frozen=True)
 class Mesh:
     """Triangles of one branch: points (n, 3) doubles, triangles (t, 3) indices, residual (n,) at the points.
@@ -67,25 +70,52 @@ def triangulate(branch: Branch) -> Mesh:
     """The mesh of a branch. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at
     the saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
     points = np.asarray(branch.points, float) + 0.0  # -0.0 and 0.0 are one place
-    _, first, location = np.unique(points.reshape(-1, 3), axis=0, return_index=True, return_inverse=True)
-    vertices = points.reshape(-1, 3)[np.sort(first)]  # in the order of the grid, whatever their last digits
-    where = np.argsort(np.argsort(first))[location]
+    places = points.reshape(-1, 3)
+    first, where = _numbered(places)
+    vertices = places[first]
     triangles = _triangles(where.reshape(points.shape[:2]), branch.cut)
-    corner = vertices[triangles]
-    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
+    corner, one, other = (vertices[corners] for corners in triangles.T)
+    one -= corner
+    other -= corner
+    wide = np.zeros(len(triangles), bool)  # a component of the cross product that is not zero
+    for k in range(3):
+        wide |= one[:, k] * other[:, k - 1] != one[:, k - 1] * other[:, k]
     residual = np.zeros(len(vertices))
-    np.maximum.at(residual, where.ravel(), np.abs(np.asarray(branch.residual, float)).ravel())
-    return Mesh(branch.name, vertices, triangles[area > 0], residual)
+    np.maximum.at(residual, where, np.abs(np.asarray(branch.residual, float)).ravel())
+    return Mesh(branch.name, vertices, triangles[wide], residual)
+
+
+def _numbered(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(Where the first of equal places (n, 3) stand, in their order; the number of each place among these,
+    (n,)), by sorting one number for each: three coordinates take ten times as long to sort."""
+    bits, times = np.ascontiguousarray(places).view(np.uint64), np.uint64(MULTIPLIER)
+    bits = bits ^ bits >> np.uint64(29)
+    while True:
+        key = bits[:, 0] + times * (bits[:, 1] + times * bits[:, 2])
+        order = np.argsort(key)
+        sorted_keys = key[order]
+        begins = np.append(True, sorted_keys[1:] != sorted_keys[:-1])[:len(key)]
+        same = np.empty(len(key), np.intp)
+        same[order] = np.minimum.reduceat(order, np.flatnonzero(begins))[np.cumsum(begins) - 1]
+        if (bits[same] == bits).all():
+            kept = same == np.arange(len(key))
+            return np.flatnonzero(kept), (np.cumsum(kept) - 1)[same]
+        times += np.uint64(2)  # different places had one number
 
 
 def _triangles(where: np.ndarray, cut: int):
     """(t, 3) triangles of a grid of vertex numbers (n, m), cut as the branch says, without those that lost a
     corner."""
     a, b, c, d = where[:-1, :-1], where[1:, :-1], where[:-1, 1:], where[1:, 1:]
-    along = np.stack([np.stack([a, b, d], -1), np.stack([a, d, c], -1)], axis=2)
-    against = np.stack([np.stack([a, b, c], -1), np.stack([c, b, d], -1)], axis=2)
-    first = np.arange(where.shape[1] - 1) < where.shape[1] // 2
-    triangles = np.where((first == (cut > 0))[:, None, None], along, against).reshape(-1, 3)
+    along, against = ((a, b, d), (a, d, c)), ((a, b, c), (c, b, d))
+    half = where.shape[1] // 2
+    out = np.empty((*a.shape, 2, 3), where.dtype)
+    for columns, pair in ((slice(half), along if cut > 0 else against),
+                          (slice(half, None), against if cut > 0 else along)):
+        for n, corners in enumerate(pair):
+            for k, corner in enumerate(corners):
+                out[:, columns, n, k] = corner[:, columns]
+    triangles = out.reshape(-1, 3)
     p, q, r = triangles.T
     return triangles[(p != q) & (q != r) & (r != p)]
 

@@ -5,6 +5,7 @@ import json
 import math
 import re
 import struct
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -168,6 +169,30 @@ def test_the_mesh_is_one_disc_without_degenerate_triangles():
     assert len(made.points) - len(edges) + len(made.triangles) == 1  # Euler characteristic of a disc
     assert area.min() > 0 and area.sum() == pytest.approx(np.pi * np.sqrt(2), rel=2e-3)
     assert made.residual.max() == 3e-16
+
+
+def test_triangles_of_a_size_whose_square_is_no_double_are_not_lost():
+    large, small = (mesh.triangulate(replace(cone(), points=cone().points * scale)) for scale in (1.0, 1e-100))
+    assert small.triangles.tolist() == large.triangles.tolist()
+
+
+def test_places_that_sorting_mistakes_for_one_stay_two_vertices():
+    """Two places whose sorting keys b0 + t (b1 + t b2), of bits b that are mixed, are equal."""
+    def mixed(value):
+        bits = struct.unpack("<Q", struct.pack("<d", value))[0]
+        return bits ^ bits >> 29
+    one = (0.75, 0.5, -0.25)
+    for n in range(1, 1000):
+        y = 1.0 + n / 1024
+        x = (mixed(one[0]) + mesh.MULTIPLIER * (mixed(one[1]) - mixed(y))) % 2**64
+        x ^= x >> 29 ^ x >> 58  # the bits before they were mixed
+        other = struct.unpack("<d", struct.pack("<Q", x))[0], y, one[2]
+        if 1e-3 < abs(other[0]) < 1e3:
+            break
+    assert (mixed(other[0]) - mixed(one[0]) + mesh.MULTIPLIER * (mixed(y) - mixed(one[1]))) % 2**64 == 0
+    points = np.array([[one, (1.0, 2.0, 3.0)], [(3.0, 1.0, 2.0), other], [one, (2.0, 2.0, 0.0)]])
+    made = mesh.triangulate(Branch("pair", points, np.zeros((3, 2)), points[:, 0], points[:, 0], np.arange(3.0)))
+    assert made.points.tolist() == points.reshape(-1, 3)[[0, 1, 2, 3, 5]].tolist()
 
 
 def test_stl_and_glb_hold_every_triangle():
