@@ -4,17 +4,20 @@ Compiled code has to be loaded, and compiled before where nothing of it is on di
 row or a step in plain Python does not. Nobody knows what a process will be asked for next, so it is the
 question whether to rent or to buy: a `Kernel` counts the work that plain Python has done, and loads what is
 compiled when this and what is to come now would cost as much as loading, or compiling, costs. Whatever comes
-afterwards, a process takes at most twice the time of the better choice, and more calls never cost much more
-than fewer. Work is counted in rows and steps, by what each costs; no clock is read.
+afterwards, a process takes at most twice the time of the better choice, and no call more than what was spent
+before and is asked now. All kernels of a process rent together for numba itself (`Account`), each for its own
+code. Work is counted in rows and steps, by what each costs beyond compiled code; no clock is read.
 
 Both give the same bytes: neither numba nor the interpreter fuses or rearranges operations, and sines,
 exponentials and their like come from the C library for both (`FROM_C`)."""
 from __future__ import annotations
 
+import gc
 import math
 import os
 import sys
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.util import find_spec
@@ -30,7 +33,7 @@ from ..errors import InputError
 from . import error_free
 
 # s of a processor: importing numba with the first kernel, and another kernel from disk
-IMPORT, LOAD = 0.45, 0.05
+IMPORT, LOAD = 0.3, 0.02
 # NumPy's functions that have digits of their own, beside those of the C library that numba calls
 FROM_C: dict[str, Callable[..., float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "arcsin": math.asin, "arccos": math.acos,
@@ -40,6 +43,18 @@ FROM_C: dict[str, Callable[..., float]] = {
 COMPILING = ("stabilab: compiling loops that this computer runs for the first time, some {seconds:.0f} s; "
              "`stabilab doctor --compile` does so beforehand")
 _announced: list[bool] = []  # once is enough, of several kernels
+
+
+@dataclass(eq=False)
+class Account:
+    """Of a process: s of plain work that all its kernels have done, and which functions below them (`below`
+    of a kernel) it has compiled."""
+
+    spent: float = 0.0
+    compiled: set[str] = field(default_factory=set)
+
+
+PROCESS = Account()
 
 
 @lru_cache(maxsize=1)
@@ -54,8 +69,9 @@ class Kernel:
 
     entry: the function that others call; inlined, variant: as of `compiled`; instead: what stands for names
     of the module, compiled or not; options: others of `compiled`, and what stands for names in compiled code
-    alone; seconds: what compiling all costs once per computer. spent: s of plain work since the process
-    began.
+    alone; seconds: what compiling the module costs once per computer; below: a function of the modules below
+    it that all kernels above these call, and what compiling these costs beside. spent: s of plain work since
+    the process began, beyond what compiled code would have taken.
     """
 
     module: ModuleType
@@ -65,15 +81,18 @@ class Kernel:
     variant: str = ""
     instead: Mapping[str, Any] = field(default_factory=dict)
     options: Mapping[str, Any] = field(default_factory=dict)
+    below: tuple[str, float] = ("", 0.0)
     spent: float = 0.0
+    account: Account = field(default_factory=lambda: PROCESS)
     ready: bool = False  # compiled code is loaded, or compiled at its first call
     _lock: Any = field(default_factory=RLock, repr=False)
     _functions: dict[str, Any] = field(default_factory=dict, repr=False)
     _plain: dict[str, Any] = field(default_factory=dict, repr=False)
+    _below_stored: bool = False
 
     def pays(self, work: float, fast: bool | None = None) -> bool:
-        """Whether compiled code serves for work that would take so many seconds in plain Python; else this is
-        counted as done. fast: True or False where the user has chosen.
+        """Whether compiled code serves for work that would take so many seconds more in plain Python; else
+        this is counted as done. fast: True or False where the user has chosen.
 
         Raises InputError for fast=True without numba.
         """
@@ -83,16 +102,24 @@ class Kernel:
                     "fast=True needs numba, which is not installed: pip install numba, or leave fast out")
             return bool(fast)
         with self._lock:
-            if not self.ready and self.spent + work >= self._price():
+            if not self.ready and work >= self.left():
                 self._look()
-                if self.spent + work >= self.seconds:
+                if work >= self.left():
                     self._announce()
-            self.spent += 0.0 if self.ready else work
+            if not self.ready:
+                self.spent += work
+                self.account.spent += work
             return self.ready
 
     def left(self) -> float:
         """s of plain work after which `pays` says yes, or looks whether compiled code is on disk."""
-        return 0.0 if self.ready else max(0.0, self._price() - self.spent) if installed() else math.inf
+        if self.ready or not installed():
+            return 0.0 if self.ready else math.inf
+        if self._functions:  # it was looked for, and is not on disk
+            return max(0.0, self._compiling() - self.spent)
+        if "numba" in sys.modules:
+            return max(0.0, LOAD - self.spent)
+        return max(0.0, IMPORT - max(self.spent, self.account.spent))
 
     def functions(self, fast: bool) -> dict[str, Any]:
         """The module's names: compiled, or as they are written."""
@@ -106,10 +133,10 @@ class Kernel:
                                     **self.instead)
             return self._plain
 
-    def _price(self) -> float:
-        if self._functions:  # it was looked for, and is not on disk
-            return self.seconds
-        return LOAD if "numba" in sys.modules else IMPORT
+    def _compiling(self) -> float:
+        """s that compiling takes, of what is neither on disk nor compiled by this process."""
+        name, seconds = self.below
+        return self.seconds + (0.0 if self._below_stored or name in self.account.compiled else seconds)
 
     def on_disk(self) -> bool:
         """Whether compiled code of it is on disk now; numba is imported."""
@@ -122,17 +149,57 @@ class Kernel:
     def _look(self) -> None:
         """Import numba, and see whether this code is on disk."""
         if not self._functions:
-            self._functions = compiled(self.module, self.inlined, self.variant, **self.options,
-                                        **self.instead)
-            self.ready = stored(self._functions[self.entry])
+            with _nothing_collected():
+                self._functions = compiled(self.module, self.inlined, self.variant, **self.options,
+                                            **self.instead)
+                self.ready = stored(self._functions[self.entry])
+                if self.ready:
+                    _begin_numba()
+            self._below_stored = bool(self.below[0]) and stored(self._functions[self.below[0]])
 
     def _announce(self) -> None:
         """Say on stderr that compiling takes its time, unless nothing is to be compiled."""
         quiet = self.ready or _announced or sys.stderr is None or os.environ.get("STABILAB_QUIET")
         if not quiet:
             _announced.append(True)
-            print(COMPILING.format(seconds=self.seconds), file=sys.stderr, flush=True)
+            print(COMPILING.format(seconds=self._compiling()), file=sys.stderr, flush=True)
+        if not self.ready:
+            self.account.compiled.add(self.below[0])
         self.ready = True
+
+
+@contextmanager
+def _nothing_collected() -> Iterator[None]:
+    """Garbage is not looked for meanwhile: among modules that come there is none, and to look takes a quarter
+    of the time."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
+
+
+def _begin_numba() -> None:
+    """Do what numba does before its first compiled call, without SciPy's linear algebra: numba imports that
+    here only to see that it is there, which takes as long as the rest, and again where it is needed."""
+    if "numba.np.arraymath" in sys.modules or not find_spec("scipy"):
+        return
+    try:
+        from numba.core.compiler_lock import global_compiler_lock
+        from numba.core.registry import cpu_target
+        from numba.np import linalg
+        look = linalg.ensure_blas
+    except (ImportError, AttributeError):  # of another version: the first call does it all
+        return
+    with global_compiler_lock:
+        linalg.ensure_blas = lambda: None
+        try:
+            cpu_target.typing_context.refresh()
+            cpu_target.target_context.refresh()
+        finally:
+            linalg.ensure_blas = look
 
 
 def stored(function: Any) -> bool:

@@ -26,6 +26,7 @@ from ..numbers.error_free import Pair, add, exact_product, exact_sum, less, scal
 # functions without which loops call instead of adding
 INLINED = {"entire", "constant", "quartic", "converged", "component", "parts_of", "rounded"}
 ENTRIES = {"entries": {"rows", "turns", "margins"}}  # what Python calls of all kernels with these functions
+BASE = "base_of", 5.0  # a function here that all of these call, and s that compiling those here takes
 ULP = 2.220446049250313e-16
 INFINITY = float("inf")
 TWOFOLD = 2.0**-94  # of its terms: rounding of a K in twofold numbers

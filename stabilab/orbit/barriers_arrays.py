@@ -358,12 +358,12 @@ def margins(u: np.ndarray, v: np.ndarray, rate: np.ndarray, orbits: Orbits, out:
 INLINED = {"chosen", "where", "on_all", "on_rows", "product_size", "about", "force_quartic", "discriminant",
            "larger", "root_of", "cube_root", "scale_of", "rotated", "barrier_roots", "largest_root", "either",
            "both", "largest_of_three", "only_one", "back", "polynomial", "third", "height", "margin"}
-BARRIERS = Kernel(sys.modules[__name__], "margins", 3.0, INLINED,
+BARRIERS = Kernel(sys.modules[__name__], "margins", 2.0, INLINED,
                   instead={"where": chosen, "either": both, "on_rows": on_all},
                   options={"allocating": False, "entries": {"margins"}})
-# s of a processor: the margin of a row in plain Python, which serves a FEW; of arrays, a call and a row of it
-IN_PLAIN, FEW = 4e-5, 8
-CALL, BY_NUMPY = 3e-4, 2.5e-7
+# s of a processor: the margin of a row in plain Python, which serves a FEW; a call of arrays beyond the
+# compiled loop, which takes as long for each row
+IN_PLAIN, FEW, CALL = 5.8e-5, 8, 4.7e-4
 
 
 def orbits_of(reduction: Reduction) -> Orbits:
@@ -391,8 +391,7 @@ def margins_of(reduction: Reduction, orbits: Orbits, states: np.ndarray):
     with np.errstate(all="ignore"):
         if on_lines(orbits):
             below, clear = margin_on_line(u, v, rate, scaled)
-        elif (fast := BARRIERS.pays(min(IN_PLAIN * len(states), CALL + BY_NUMPY * len(states)))
-              ) or len(states) < FEW:
+        elif (fast := BARRIERS.pays(min(IN_PLAIN * len(states), CALL))) or len(states) < FEW:
             below, clear = np.empty(len(states)), np.empty(len(states), np.int8)
             BARRIERS.functions(fast)["margins"](u, v, rate, scaled, below, clear)
         else:

@@ -13,7 +13,7 @@ from ..numbers.numba_door import Kernel, installed
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
 from . import rows_kernel, turns_kernel
-from .arc_kernel import ENTRIES, INLINED
+from .arc_kernel import BASE, ENTRIES, INLINED
 from .extremes import precise_extremes
 from .fate_arrays import CHUNK, FateResult, fate_on_orbit, fates, rows_beyond_doubles
 from .landscape import Landscape, landscape
@@ -48,10 +48,10 @@ def open_extremes(land: Landscape, states: np.ndarray, labels: np.ndarray):
 REACH = 3.45  # of t: beyond, the weights of double-exponential nodes are 1e-20
 LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
 HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
-KERNELS = {"rows": Kernel(rows_kernel, "rows", 10.0, INLINED, options=ENTRIES),
-           "turns": Kernel(turns_kernel, "turns", 4.0, INLINED, options=ENTRIES)}
-# s of a processor: a row in plain Python, and what the period of one all round a circle takes beside
-ROW, PERIOD_OF_TURN = {"rows": 4e-4, "turns": 1.5e-4}, 3e-3
+KERNELS = {"rows": Kernel(rows_kernel, "rows", 5.3, INLINED, options=ENTRIES, below=BASE),
+           "turns": Kernel(turns_kernel, "turns", 3.2, INLINED, options=ENTRIES, below=BASE)}
+# s of a processor: a row in plain Python, and what its period takes beside
+ROW, PERIOD_OF_ROW = {"rows": 4.2e-4, "turns": 2.5e-4}, {"rows": 1e-4, "turns": 4.5e-3}
 
 
 def settle_rows(land: Landscape, states: np.ndarray, boxes: np.ndarray, periods: np.ndarray,
@@ -67,9 +67,7 @@ def settle_rows(land: Landscape, states: np.ndarray, boxes: np.ndarray, periods:
     if not rows.size:
         return
     loops = KERNELS[kernel]
-    work = ROW[kernel] * rows.size
-    if kernel == "turns":
-        work += PERIOD_OF_TURN * np.count_nonzero(left_open & PERIOD)
+    work = ROW[kernel] * rows.size + PERIOD_OF_ROW[kernel] * np.count_nonzero(left_open & PERIOD)
     function = loops.functions(loops.pays(work, by_numba and installed()))[kernel]
     with np.errstate(all="ignore"):
         function(states, rows, *land.kernel_input, rules(), boxes, periods, left_open)

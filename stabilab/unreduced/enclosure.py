@@ -53,9 +53,9 @@ WHY = {enclosure_kernel.DONE: Sentence("enclosure-done", "enclosed")(),
            "enclosure-too-wide", "lost: the set has grown too wide to follow")(),
        enclosure_kernel.ENDLESS: Sentence(
            "enclosure-step-below-grain", "lost: a step would be below the grain of time")()}
-STEP = 1.5e-2  # s of a processor: a step in plain Python
+STEP = 7.4e-3  # s of a processor: a step in plain Python
 # a variant: sums of twofold numbers are compiled for it by itself, beside those of the orbits (`compiling`)
-ADVANCE = Kernel(enclosure_kernel, "advance", 6.0, variant="enclosure_", options={"entries": {"advance"}})
+ADVANCE = Kernel(enclosure_kernel, "advance", 6.4, variant="enclosure_", options={"entries": {"advance"}})
 TOO_LONG = Sentence("enclosure-too-long", "too long to enclose")()
 
 

@@ -1,8 +1,10 @@
 """Loops as written or compiled: what is counted, when compiled code is loaded, and what is on disk."""
 from __future__ import annotations
 
+import gc
 import importlib.util
 import math
+import subprocess
 import sys
 
 import numpy as np
@@ -10,7 +12,7 @@ import pytest
 
 from stabilab.errors import InputError
 from stabilab.numbers import numba_door
-from stabilab.numbers.numba_door import IMPORT, LOAD, Kernel, by_the_c_library, compiled, stored
+from stabilab.numbers.numba_door import IMPORT, LOAD, Account, Kernel, by_the_c_library, compiled, stored
 
 with_numba = pytest.mark.skipif(not numba_door.installed(), reason="nothing is compiled without numba")
 ROW = 3e-4
@@ -32,7 +34,8 @@ class Process:
     """A process of its own, counted: what its calls cost by the prices of the module."""
 
     def __init__(self, monkeypatch, on_disk):
-        self.kernel, self.time, self.loads, self.on_disk = Kernel(math, "rows", 9.0), 0.0, 0, on_disk
+        self.kernel, self.time, self.loads = Kernel(math, "rows", 9.0, account=Account()), 0.0, 0
+        self.on_disk = on_disk
         monkeypatch.setattr(numba_door, "installed", lambda: True)
         monkeypatch.setattr(numba_door, "compiled", self.load)
         monkeypatch.setattr(numba_door, "stored", lambda function: on_disk)
@@ -75,13 +78,73 @@ def test_no_process_costs_over_twice_the_better_choice_and_no_call_doubles_what_
 def test_a_second_kernel_costs_no_second_import(monkeypatch):
     monkeypatch.setattr(numba_door, "installed", lambda: True)
     monkeypatch.setitem(sys.modules, "numba", math)
-    kernel = Kernel(math, "rows", 9.0)
+    kernel = Kernel(math, "rows", 9.0, account=Account())
     assert kernel.left() == LOAD and not kernel.pays(LOAD / 2) and kernel.left() == LOAD / 2
 
 
+def test_kernels_rent_together_for_numba_and_each_for_its_own_code(monkeypatch):
+    process = Process(monkeypatch, on_disk=True)
+    one, other = process.kernel, Kernel(math, "rows", 9.0, account=process.kernel.account)
+    assert not one.pays(0.75 * IMPORT) and other.left() == pytest.approx(0.25 * IMPORT)
+    assert other.pays(0.26 * IMPORT) and process.loads == 1 and not one.ready
+    monkeypatch.setitem(sys.modules, "numba", math)
+    assert one.left() == 0 and one.pays(0.0) and process.loads == 2  # it has rented for its own long since
+    third = Kernel(math, "rows", 9.0, account=one.account)
+    assert third.left() == LOAD and not third.pays(LOAD / 2)
+
+
+def test_what_kernels_share_is_paid_for_once(monkeypatch):
+    process = Process(monkeypatch, on_disk=False)
+    one, other, third = (Kernel(math, "rows", own, below=("shared", 5.0), account=process.kernel.account)
+                         for own in (4.0, 3.0, 2.0))
+    monkeypatch.setattr(numba_door, "compiled", lambda *module: {"rows": None, "shared": "shared"})
+    for kernel in (one, other):
+        assert not kernel.pays(IMPORT) and kernel.left() == pytest.approx(kernel.seconds + 5.0 - IMPORT)
+    assert one.pays(9.1) and other.left() == pytest.approx(3.0 - IMPORT)
+    monkeypatch.setattr(numba_door, "stored", lambda function: function == "shared")
+    third.account = Account()  # of a process that begins when these are on disk
+    assert not third.pays(IMPORT) and third.left() == pytest.approx(2.0 - IMPORT)
+
+
+@with_numba
+def test_loading_leaves_collecting_as_it_was_and_scipy_to_who_needs_it():
+    """In a process of its own; NumPy's product is what numba's, by SciPy's BLAS, has to be."""
+    program = """
+import gc, sys
+import numpy as np
+from stabilab.orbit.fate_arrays import MARGINS
+from stabilab.numbers import numba_door
+gc.disable() if sys.argv[1] == "0" else gc.enable()
+numba_door.stored = lambda function: True
+MARGINS.functions(True)
+from numba import njit
+from numba.np import arraymath, linalg
+print(gc.isenabled() == (sys.argv[1] == "1"), "scipy.linalg" in sys.modules, linalg.ensure_blas.__name__)
+x = np.arange(4.0).reshape(2, 2)
+print(np.array_equal(njit(lambda a: np.dot(a, a))(x), x @ x), "scipy.linalg" in sys.modules)
+"""
+    for collecting in "01":
+        printed = subprocess.run([sys.executable, "-c", program, collecting], capture_output=True, text=True,
+                                 check=True).stdout
+        assert printed.split() == ["True", "False", "ensure_blas", "True", "True"]
+
+
+@pytest.mark.parametrize("enabled", [True, False])
+def test_a_load_that_fails_leaves_collecting_as_it_was(enabled, monkeypatch):
+    monkeypatch.setattr(numba_door, "compiled", lambda *module: 1 / 0)
+    before = gc.isenabled()
+    try:
+        (gc.enable if enabled else gc.disable)()
+        with pytest.raises(ZeroDivisionError):
+            Kernel(math, "rows", 9.0, account=Account()).functions(True)
+        assert gc.isenabled() == enabled
+    finally:
+        (gc.enable if before else gc.disable)()
+
+
 def test_what_the_user_chose_is_not_counted(monkeypatch):
-    kernel = Kernel(math, "rows", 9.0)
-    assert not kernel.pays(100.0, fast=False) and kernel.spent == 0
+    kernel = Kernel(math, "rows", 9.0, account=Account())
+    assert not kernel.pays(100.0, fast=False) and kernel.spent == kernel.account.spent == 0
     monkeypatch.setattr(numba_door, "installed", lambda: False)
     assert not kernel.pays(100.0) and kernel.left() == math.inf
     with pytest.raises(InputError, match="pip install numba"):

@@ -28,7 +28,7 @@ from ...physics.states import checked_states
 from ...reasons import Axis, Quantity, Reason, Sentence
 from ...validation import checked_scene
 from ..enclosure import proved
-from .certificate import ADVANCE, Tests, exactly, tests_of
+from .certificate import ADVANCE, DECIDE, Tests, exactly, tests_of
 from .drift import Leaps, Runs
 from .form import island, recurs, seen
 from .result import SpinUp, Trap
@@ -40,7 +40,8 @@ NATURAL_TIMES, BUDGET = 1e9, 600_000
 # steps that show the pace of a motion, where it is followed to a time that somebody names
 SETTLED = 1_000_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
-STEP = 1e-4  # s of a processor: a step of one motion in plain Python, with its part in the tests
+# s of a processor: a step of one motion in plain Python, and a test of one
+STEP, TEST = 5e-5, 1.2e-4
 LEVELS = ("undecided", "certified", "exact", "proved")
 # steps between tests: a share of those before (early, later), at least and at most so many
 FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000
@@ -106,7 +107,7 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
                  runs.rounded, runs.twins.blur, np.zeros(n))
     open_, stage, leaps, leapt, counted = np.arange(n), 0, Leaps(runs), np.arange(0), 0
     while open_.size:
-        runs.fast = ADVANCE.pays(STEP * (runs.counted - counted + open_.size), fast)
+        runs.fast = ADVANCE.pays(STEP * (runs.counted - counted), fast)
         counted = runs.counted
         runs.measure(open_, out)
         ready = open_ if after <= 0 else open_[out.t[open_] >= after]
@@ -115,12 +116,12 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
         far = np.intersect1d(ready, leapt) if leapt.size else leapt
         for rows, request in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
             if rows.size:
-                _ask(out, rows, getattr(tests, request), runs.fast)
+                _ask(out, rows, getattr(tests, request), fast)
         open_ = open_[out.fired[open_] < 0]
         ended = runs.over(open_, t_max, budget) | _hopeless(out, open_, t_max, budget)
         if ended.any():  # the last word is that of all tests that so much work is worth
             request = tests.last if runs.steps_done >= LAST else tests.all
-            _ask(out, open_[ended & (out.t[open_] >= after)], request, runs.fast)
+            _ask(out, open_[ended & (out.t[open_] >= after)], request, fast)
         open_ = open_[~ended]
         if open_.size:
             leapt = leaps.advance(open_, t_max, after)
@@ -149,13 +150,14 @@ def _hopeless(out: Chased, rows: np.ndarray, t_max: float, budget: int):
 
 
 def _ask(out: Chased, rows: np.ndarray, which: Sequence[tuple[FixedCentre | MovingCentre, tuple[int, int]]],
-         fast: bool):
+         fast: bool | None):
     """Ask tests for rows, one after another for those that none has fired for; what fires is written down."""
     for form, orders in which:
         if not rows.size:
             break
         test, number = out.tests.certifier(form, orders), out.tests.asked.index((form, orders))
-        test.decide(rows, out.states, out.reach, out.fired, number, out.constants, fast)
+        test.decide(rows, out.states, out.reach, out.fired, number, out.constants,
+                    DECIDE.pays(TEST * rows.size, fast))
         rows = rows[out.fired[rows] < 0]
 
 
@@ -193,7 +195,7 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
                   tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast)
     start = supplied if isinstance(supplied, (list, tuple)) else state
     answer = kept_by_law(scene, start, answer_of(scene, unit, result, 0))
-    return proved(scene, start, answer, fast=ADVANCE.pays(0.0, fast)) if proof else answer
+    return proved(scene, start, answer, fast=DECIDE.pays(0.0, fast)) if proof else answer
 
 
 def kept_by_law(scene: AnyScene, state: Sequence[Any], answer: SpinUp) -> SpinUp:
@@ -297,7 +299,7 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     if not by_law and not proof:
         return out
     return _of_rows(scene, (kept_by_law(covered, state, out.row(number)) if by_law
-                            else proved(scene, state, out.row(number), fast=ADVANCE.pays(0.0, fast))
+                            else proved(scene, state, out.row(number), fast=DECIDE.pays(0.0, fast))
                             for number, state in enumerate(states.tolist())))
 
 
