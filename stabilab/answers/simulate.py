@@ -113,7 +113,8 @@ def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, tim
     unit = np.vstack([np.zeros(3), np.eye(3)[axis]])
     # affine in that rate
     integrals = [row[0] * times + (row[1] - row[0]) * turned for row in system.law_rates(unit).values()]
-    drift = departures(system, state, np.column_stack([states, *integrals]))
+    begun = np.append(state, np.zeros(len(integrals)))
+    drift = departures(system, np.vstack([begun, np.column_stack([states, *integrals])]))
     info = np.abs(times) * ROUNDING <= LOST * (motion.period or np.inf)
     watch = watcher(scene, equations, state)
     if watch:

@@ -19,10 +19,10 @@ from ..errors import InputError
 from ..physics.coefficients import limits_of
 from ..physics.scene import AnyScene, judge_starts, slices, time_left
 from ..physics.states import checked_rtol, checked_starts, checked_times
-from ..physics.to_numpy import System, equations_of, to_numpy
+from ..physics.to_numpy import equations_of, to_numpy
 from ..representation import Answer, Compared
 from .guard import FARTHEST
-from .own_units import Units, are_ordinary, in_units, scale_of, units_of
+from .own_units import Units, are_ordinary, in_units, scale_of, sizes_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka, heyoka_available
 from .trajectory import REPORT, integrated
 
@@ -86,26 +86,44 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     if not heyoka_available() or (left is not None and left < times.max()):
         return _one_by_one(scene, starts, times, rtol)
     rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
+    with np.errstate(all="ignore"):
+        changes = to_numpy(equations)(starts)
+        sizes = sizes_of(equations, starts, changes)
+        pace = np.sqrt(_squared(starts[:, :3])) + np.sqrt(_squared(changes))
+        far = sizes[2] * np.abs(times).max() > FARTHEST
     out, steps, stopped = np.empty((len(starts), times.size, starts.shape[1])), 0, {}
-    for units, numbers in _by_units(equations, starts):
-        run = _Rows(scene, equations, units, rtol, starts[numbers], times)
-        groups = _groups(to_numpy(equations), starts[numbers])
-        turned = _turned(to_numpy(equations), starts[numbers], times)
-        run.far.update(np.flatnonzero(turned > FARTHEST).tolist())
+    out[:, times == 0] = starts[:, None]
+    for units, numbers in _by_units(equations, starts, sizes):
+        run = _Rows(scene, equations, units, rtol, starts, times, out)
+        run.far.update(numbers[far[numbers]].tolist())
+        groups = _groups(pace[numbers], numbers)
         threads = min(workers, len(groups))  # more would have nothing to do
         with ThreadPoolExecutor(threads) if threads > 1 else nullcontext() as pool:
             steps += sum((pool.map if pool else map)(run, (groups[i::threads] for i in range(threads))))
+        run.check(numbers)
         steps += sum(taken for _, taken in run.alone.values())
-        stopped |= {int(numbers[number]): why for number, (why, _) in run.alone.items() if why}
-        out[numbers] = run.out
-    reached = np.asarray(np.isfinite(out).all(axis=2))
-    return Ensemble(times, out, reached, dict(sorted(stopped.items())), "taylor", rtol, {"steps": steps},
-                    scene)
+        stopped |= {number: why for number, (why, _) in run.alone.items() if why}
+    return Ensemble(times, out, _reached(out), dict(sorted(stopped.items())), "taylor", rtol,
+                    {"steps": steps}, scene)
 
 
-def _by_units(equations: Equations, starts: np.ndarray):
-    """(units, numbers of the motions that have them), see `own_units`; those with ordinary rates first."""
-    odd = ~are_ordinary(equations, starts)
+def _reached(out: np.ndarray) -> np.ndarray:
+    """(n, m) which states are finite; nearly always all are, which is seen at once far sooner."""
+    return (np.ones(out.shape[:2], bool) if np.isfinite(out).all()
+            else np.asarray(np.isfinite(out).all(axis=2)))
+
+
+def _squared(rows: np.ndarray) -> np.ndarray:
+    """(n,) the squared length of each row."""
+    return np.einsum("ij,ij->i", rows, rows)
+
+
+def _by_units(equations: Equations, starts: np.ndarray, sizes: tuple[np.ndarray, ...]):
+    """(units, numbers of the motions that have them), see `own_units`; those with ordinary rates first.
+    sizes: of the starts."""
+    odd = ~are_ordinary(equations, *sizes)
+    if not odd.any():
+        return [(Units(), np.arange(len(starts)))]
     entries = {Units(): np.flatnonzero(~odd).tolist()}
     for number in np.flatnonzero(odd).tolist():
         units = replace(units_of(equations, starts[number]), laws=False)  # none is checked here
@@ -119,37 +137,25 @@ def _workers(workers: int):
     return int(workers) or os.cpu_count() or 1
 
 
-def _groups(system: System, starts: np.ndarray):
-    """Rows of LANES motions of similar pace: the slowest of a row keeps the others waiting. The last row is
-    filled up."""
-    with np.errstate(all="ignore"):
-        pace = np.linalg.norm(starts[:, :3], axis=1) + np.linalg.norm(system(starts), axis=1)
-    order = np.argsort(pace, kind="stable")
+def _groups(pace: np.ndarray, numbers: np.ndarray):
+    """Rows of LANES numbers of motions of similar pace (n,): the slowest of a row keeps the others waiting.
+    The last row is filled up."""
+    order = numbers[np.argsort(pace, kind="stable")]
     order = np.append(order, np.repeat(order[-1:], -len(order) % LANES))
     return order.reshape(-1, LANES)
 
 
-def _turned(system: System, starts: np.ndarray, times: np.ndarray):
-    """(n,) radians or so that motions turn through, by their rates or the roots of these rates' changes."""
-    with np.errstate(all="ignore"):
-        rates, changes = np.abs(starts[:, :3]).max(axis=1), np.abs(system(starts)[:, :3]).max(axis=1)
-        return np.maximum(rates, np.sqrt(changes)) * np.abs(times).max()
-
-
 class _Rows:
-    """Called with rows of LANES numbers of motions, it puts their states into `out` and answers the steps
-    they took."""
+    """Called with rows of LANES numbers of motions, it puts their states into `out` (n, m, N) and answers the
+    steps they took; `check` when all have been."""
 
     def __init__(self, scene: AnyScene, equations: Equations, units: Units, rtol: float, starts: np.ndarray,
-                 times: np.ndarray):
-        self.scene, self.rtol, self.starts, self.times = scene, rtol, starts, times
-        self.scale, own = scale_of(equations, units), units.times(times)
-        self.own_starts = starts / self.scale
+                 times: np.ndarray, out: np.ndarray):
+        self.scene, self.rtol, self.starts, self.times, self.out = scene, rtol, starts, times, out
+        own, self.scale = units.times(times), None if units.rate == 1 else scale_of(equations, units)
         self.forms = to_numpy(in_units(equations, units)).rhs
-        self.out = np.empty((len(starts), times.size, starts.shape[1]))
-        self.out[:, times == 0] = starts[:, None]
         self.far = set()  # numbers of motions that turn too often to be followed in step with others
-        self.finished = heyoka().taylor_outcome.time_limit
+        self.finished = (heyoka().taylor_outcome.time_limit,) * LANES
         self.alone = {}  # number of a motion that its lane did not finish -> (why it stopped or "", steps)
         self.grids = []  # (which of the times, the way there lane by lane)
         for chosen, sense in ((times < 0, -1), (times > 0, 1)):
@@ -171,14 +177,23 @@ class _Rows:
             self._follow_alone(number)
         while (lanes := self._together(lanes)).size:
             points, outcomes, steps = self._propagated(ta, lanes, grid)
-            good = np.isfinite(points[-1]).all(axis=0) & [outcome == self.finished for outcome in outcomes]
-            if good.all():
+            if outcomes == self.finished:
+                points = points[1:].transpose(2, 0, 1)
                 where = lanes if isinstance(route, slice) else lanes[:, None]
-                self.out[where, route] = points[1:].transpose(2, 0, 1) * self.scale
+                self.out[where, route] = points if self.scale is None else points * self.scale
                 return sum(dict(zip(lanes.tolist(), steps)).values())
-            for number in set(lanes[~good].tolist()):
-                self._follow_alone(number)
+            for number, outcome in zip(lanes.tolist(), outcomes):
+                if outcome != self.finished[0] and number not in self.alone:
+                    self._follow_alone(number)
         return 0
+
+    def check(self, numbers: np.ndarray):
+        """Follow those of these motions alone that came to their end with numbers that are not finite."""
+        if len(numbers) == len(self.out) and np.isfinite(self.out).all():
+            return
+        for number in numbers[~np.isfinite(self.out[numbers]).all(axis=(1, 2))].tolist():
+            if number not in self.alone:
+                self._follow_alone(number)
 
     def _together(self, lanes: np.ndarray):
         """A row of those that are not followed alone; none where there is none."""
@@ -188,8 +203,9 @@ class _Rows:
         return np.resize(good, LANES if good else 0)
 
     def _propagated(self, ta, lanes, grid):
+        starts = self.starts[lanes]
         ta.set_time(0.0)
-        ta.state[:] = self.own_starts[lanes].T
+        ta.state[:] = (starts if self.scale is None else starts / self.scale).T
         points = ta.propagate_grid(grid, max_steps=REPORT)[1]
         outcomes, _, _, steps = zip(*ta.propagate_res)  # made anew for each look
         return points, outcomes, steps

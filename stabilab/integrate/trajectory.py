@@ -167,25 +167,28 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     watch = watcher(scene, equations, state)
     note = watch and (lambda rows: watch.note(rows * scale))
     start, passed = state if units.rate == 1 else state / scale, None if steps is None else list[float]()
-    before, still, after = parted(units.times(times))
+    before, after, still = parted(units.times(times))
     drift: dict[str, float] = {}
-    failure, result = None, [(np.zeros(still), start[None][:still])]
-    for grid, location in ((before, 0), (after, 2)):
-        if grid.size:
+    failure, rows = None, [start[None]] * 2
+    for n, grid in enumerate((before, after)):
+        if grid.size > 1:
             points, stop = run.run(start, grid, passed, note)
             failure = stop if failure is None else failure.then(stop)
             if watch:
-                watch.at(points[:, :state.size] * scale)
-            for name, departure in departures(system, start, points).items() if laws else ():
+                watch.at(points[1:, :state.size] * scale)
+            for name, departure in departures(system, points).items() if laws else ():
                 drift[name] = max(drift.get(name, 0.0), departure)
-            sense = location - 1  # those before 0 were met from there on
-            result.insert(location, (grid[:len(points)][::sense], points[::sense, :state.size]))
+            rows[n] = np.ascontiguousarray(points[:, :state.size])
     if steps is not None:
         steps += [t / units.pace for t in passed or ()]
-    route = 1 if times.size < 2 or times[1] > times[0] else -1
-    parts = [part for part in result if part[0].size] or result[:1]
-    reached, states = parts[0] if len(parts) == 1 else map(np.concatenate, zip(*parts))
-    reached, states = reached[::route], states[::route]
+    reached, states = after[:len(rows[1])], rows[1]
+    if not still:
+        reached, states = reached[1:], states[1:]
+    if before.size > 1:  # those before 0 were met from there on
+        reached = np.concatenate([before[:len(rows[0])][:0:-1], reached])
+        states = np.concatenate([rows[0][:0:-1], states])
+    if times.size > 1 and times[1] < times[0]:
+        reached, states = reached[::-1], states[::-1]
     if not units.plain:
         reached, states = reached / units.pace, states * scale
     return Trajectory(reached, states, method, rtol, drift,
@@ -193,15 +196,16 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
                       watch and watch.result(), reason=failure or reason)
 
 
-def parted(times: np.ndarray) -> tuple[np.ndarray, int, np.ndarray]:
-    """(those before 0, how many are 0: one or none, those after it) of times in a row either way; before and
-    after begin next to 0."""
+def parted(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, bool]:
+    """(0 and the times before it, 0 and those after it, each away from 0, and whether 0 is one of them) of
+    times in a row either way."""
     rising = times if times.size < 2 or times[1] > times[0] else times[::-1]
-    if rising[0] >= 0:  # as nearly always: searched for, it costs a short run a hundredth of its time
-        first, last = 0, int(rising[0] == 0)
-    else:
-        first, last = map(int, (rising.searchsorted(0.0), rising.searchsorted(0.0, "right")))
-    return rising[:first][::-1], last - first, rising[last:]
+    if rising[0] == 0:  # as nearly always: searched for, it costs a short run a hundredth of its time
+        after = rising + 0.0  # a copy, for it becomes the run's own, without a zero's sign
+        return after[:1], after, True
+    first, last = rising.searchsorted(0.0), rising.searchsorted(0.0, "right")
+    return (np.concatenate([[0.0], rising[:first][::-1]]), np.concatenate([[0.0], rising[last:]]),
+            bool(last > first))
 
 
 def watcher(scene: AnyScene, equations: Equations, state: np.ndarray):
@@ -214,16 +218,17 @@ def watcher(scene: AnyScene, equations: Equations, state: np.ndarray):
     return watch
 
 
-def departures(system: System, state: np.ndarray, points: np.ndarray) -> dict[str, float]:
+def departures(system: System, points: np.ndarray) -> dict[str, float]:
     """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run.
+    points: (n, N + laws) the states and the integrals, those of the start first; of the start alone nothing.
     """
-    if not len(points):
+    if len(points) < 2:
         return {}
-    n = state.size
-    quantities, sizes = system.laws(np.concatenate([state[None], points[:, :n]]))
+    n = len(system.equations.state)
+    quantities, sizes = system.laws(points[:, :n])
     integrals = points[:, n:].T
     largest = np.maximum(sizes.max(axis=1), np.abs(integrals).max(axis=1))
-    departed = np.abs(quantities[:, 1:] - quantities[:, :1] - integrals).max(axis=1)
+    departed = np.abs(quantities - quantities[:, :1] - integrals).max(axis=1)
     return {law.name: float(departure / size) if size > 0 else 0.0
             for law, departure, size in zip(system.equations.balances, departed.tolist(), largest.tolist())}
 
@@ -246,8 +251,9 @@ class _Taylor:
         self.counters = {"steps": 0}
 
     def run(self, state, grid, passed=None, watch=None):
-        """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without
-        it. passed: a list that takes the ends of the steps; watch: is called with states (n, N) in each."""
+        """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0, its
+        first time. passed: a list that takes the ends of the steps; watch: is called with states (n, N) in
+        each."""
         note = {}
         if passed is not None or watch is not None:
             def seen(ta):
@@ -262,12 +268,15 @@ class _Taylor:
             begin = partial(_put, ta, state)
             far, within = self._given_up(ta, begin, grid)
             begin()
-            out, failure = self._passed(ta, grid[:within], note) if within else (ta.state[None][:0], None)
+            out, failure = (self._passed(ta, grid[:within], note) if within > 1
+                            else (ta.state[None].copy(), None))
             failure = far if far and len(out) == within else failure
         if out.shape[1] > state.size:
             out[:, state.size:] /= FEATHER
         if not np.isfinite(out).all():
             out = out[:np.argmin(np.isfinite(out).all(axis=1))]
+        if not len(out):  # where the first step failed, heyoka gives back not even the start
+            out = np.concatenate([state, np.zeros(out.shape[1] - state.size)])[None]
         return out, None if len(out) == len(grid) else _stopped(out, grid / self.pace, failure)
 
     def _given_up(self, ta, begin, grid):
@@ -299,12 +308,12 @@ class _Taylor:
         rows, begun, size = [], self.counters["steps"], len(ta.state)
         while True:
             done = sum(map(len, rows))
-            last, route = ta.time, np.empty(grid.size - done + 1)
-            route[0], route[1:] = last, grid[done:]
+            last = ta.time
+            route = np.concatenate([[last], grid[done:]]) if done else grid
             with np.errstate(all="ignore") if note else nullcontext():
                 outcome, _, _, steps, *_, out = ta.propagate_grid(route, max_steps=REPORT, **note)
             self.counters["steps"] += steps
-            rows.append(out.reshape(-1, size)[1:])
+            rows.append(out.reshape(-1, size)[1 if done else 0:])
             # the clock has two doubles: where the first is the next time and the second not zero, a grid from
             # here to that time would be refused
             if outcome.name == "step_limit":
@@ -364,9 +373,9 @@ class _SciPy:
     def run(self, state, grid, passed=None, watch=None):
         """As of _Taylor."""
         y = np.concatenate([state, np.zeros(len(self.system.equations.balances))])
-        t, points, h, failure, self.reported = 0.0, [], None, None, 0.0
+        t, points, h, failure, self.reported = 0.0, [y], None, None, 0.0
         with np.errstate(all="ignore"):
-            for piece in (grid[i:i + 1] for i in range(len(grid))) if self.landing else (grid,):
+            for piece in (grid[i:i + 1] for i in range(1, len(grid))) if self.landing else (grid[1:],):
                 y, h, failure = self._piece(t, y, piece, h, points, passed, watch, grid[-1])
                 if failure:
                     break
@@ -392,7 +401,7 @@ class _SciPy:
             self.counters["steps"] += 1
             if passed is not None:
                 passed.append(solver.t)
-            if watch is not None and np.isfinite(solver.y[:n]).all():
+            if watch is not None and solver.status != "failed" and np.isfinite(solver.y[:n]).all():
                 watch(solver.dense_output()(solver.t_old + INSIDE_STEP * (solver.t - solver.t_old))[:n].T)
             if solver.status == "failed" or not np.isfinite(solver.y[:n]).all():
                 return y, h, MESSAGE(message=message) if message else NUMBERS_OVERFLOWED
@@ -437,7 +446,7 @@ class _SciPy:
 
 def _stopped(points, grid, why: Reason | None) -> Reason:
     why = why or NUMBERS_OVERFLOWED  # which is why its last states were left out
-    return (BROKE_OFF_AT(last=Moment(float(grid[len(points) - 1])), why=why) if len(points)
+    return (BROKE_OFF_AT(last=Moment(float(grid[len(points) - 1])), why=why) if len(points) > 1
             else NEVER_BEGAN(why=why))
 
 

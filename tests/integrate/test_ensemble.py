@@ -71,6 +71,23 @@ def test_a_motion_that_overflows_stops_alone():
     assert np.isposinf(found.states[5][~found.reached[5]]).all() and (found.states[5, 3] == 1e200).all()
 
 
+@needs_heyoka
+def test_a_lane_that_ends_in_no_number_is_followed_alone(monkeypatch):
+    """Though heyoka calls it finished."""
+    propagated = ensembles._Rows._propagated
+
+    def spoilt(self, ta, lanes, grid):
+        points, outcomes, steps = propagated(self, ta, lanes, grid)
+        points[-1, 1, lanes == 9] = np.nan
+        return points, outcomes, steps
+    sound = ensemble(SCENE, STATES, TIMES)
+    monkeypatch.setattr(ensembles._Rows, "_propagated", spoilt)
+    found = ensemble(SCENE, STATES, TIMES)
+    assert found.status == "reached" and (found.states[9] == trajectory(SCENE, STATES[9], TIMES).states).all()
+    others = np.delete(np.arange(len(STATES)), 9)
+    assert (found.states[others] == sound.states[others]).all()
+
+
 def test_an_ensemble_of_overflows_answers():
     found = ensemble(SCENE, np.full((3, 3), 1e200), [1.0])
     assert list(found.stopped) == [0, 1, 2] and not found.reached.any()
@@ -95,13 +112,19 @@ def test_bad_input_is_named(arguments, words):
 
 
 @needs_heyoka
-def test_rows_hold_motions_of_like_pace():
+def test_rows_hold_motions_of_like_pace(monkeypatch):
     """The slowest motion of a row keeps the others waiting: the paces of two rows must not interleave."""
     from stabilab.physics.to_numpy import to_numpy
-    system = to_numpy(SCENE)
-    rows = ensembles._groups(system, STATES)
+    rows, together = [], ensembles._Rows.__call__
+
+    def counted(self, groups):
+        rows.extend(groups)
+        return together(self, groups)
+    monkeypatch.setattr(ensembles._Rows, "__call__", counted)
+    ensemble(SCENE, STATES, TIMES)
+    rows = np.array(rows)
     assert rows.shape == (3, LANES) and set(rows.ravel()) == set(range(len(STATES)))
-    pace = np.linalg.norm(STATES, axis=1) + np.linalg.norm(system(STATES), axis=1)
+    pace = np.linalg.norm(STATES, axis=1) + np.linalg.norm(to_numpy(SCENE)(STATES), axis=1)
     assert all(pace[a].max() <= pace[b].min() for a, b in zip(rows, rows[1:]))
 
 

@@ -88,8 +88,8 @@ def test_the_glance_at_one_motion_sees_what_that_at_many_sees(size):
     for effects in ((), (Gyrostat((0.3, -0.2, 0.5)), ConstantTorque((0.1, 0.2, 0.1))), (Resistance("0.01"),)):
         equations = equations_of(Scene(Body((3, 2, "1.5")), *effects))
         for state in rng.normal(size=(20, 3)) * size:
-            many = [float(column[0]) for column in own_units._sizes(equations, state[None])]
+            many = [float(column[0]) for column in own_units.sizes_of(equations, state[None])]
             assert np.allclose(own_units._sizes_of_one(equations, state), many, rtol=1e-15, atol=0)
-            ordinary = own_units.are_ordinary(equations, state[None])[0]
+            ordinary = own_units.are_ordinary(equations, *own_units.sizes_of(equations, state[None]))[0]
             if 0 < many[2] < np.inf:
                 assert own_units._ordinary(equations, *many) == ordinary

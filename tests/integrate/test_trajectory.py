@@ -14,6 +14,7 @@ from stabilab.integrate import trajectory as trajectories
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.integrate.trajectory import SCIPY_METHODS
 from stabilab.papers.cost_effects import ladder
+from stabilab.physics.effects import effect_class
 from stabilab.physics.effects.base import Effect
 from stabilab.physics.equations import derive
 from stabilab.physics.to_numpy import form
@@ -169,6 +170,15 @@ def test_overflow_stops_the_run_with_a_reason_and_no_nan(method):
     assert np.isfinite(run.states).all() and len(run.t) == len(run.states) == 1
 
 
+def test_a_step_that_fails_stops_a_run_whose_law_is_watched_along_its_steps():
+    """A torque speeds the body up beyond a tolerance that is relative to a start near zero: no step is short
+    enough, and SciPy has no interpolant of one that failed."""
+    scene = Scene(Body((3, 2, "1.5")), ConstantTorque(("0.1", "0.2", "0.1")),
+                  effect_class("liquid_cavity")("0.05", 1000, "0.01"))
+    run = trajectory(scene, (6e-201, -3e-201, -5e-201), [5.0], "DOP853")
+    assert run.status == "stopped" and "step size" in run.because and run.validity.value >= 0
+
+
 @pytest.mark.parametrize("arguments, words", [
     (((1, 2), [1.0]), "three numbers"), (((1, 2, np.nan), [1.0]), "finite"),
     (((1, 2, 3), []), "finite numbers"),
@@ -255,10 +265,17 @@ def test_a_second_run_compiles_and_copies_no_integrator(monkeypatch):
                                    [5.0], [-5.0]])
 @pytest.mark.parametrize("way", [1, -1])
 def test_times_are_parted_at_zero_and_each_part_leaves_from_there(times, way):
-    before, still, after = trajectories.parted(np.array(times[::way], float))
-    assert before.tolist() == sorted((t for t in times if t < 0),
-                                     reverse=True) and after.tolist() == sorted(t for t in times if t > 0)
-    assert still == times.count(0)
+    before, after, still = trajectories.parted(np.array(times[::way], float))
+    assert before.tolist() == [0, *sorted((t for t in times if t < 0), reverse=True)]
+    assert after.tolist() == [0, *sorted(t for t in times if t > 0)]
+    assert still == times.count(0) and not np.signbit(after[0])
+
+
+def test_the_times_of_a_run_are_its_own():
+    times = np.array([0.0, 1.0])
+    run = trajectory(Scene(Body((3, 2, 1))), (1, 2, 3), times)
+    times[1] = 7.0
+    assert run.t.tolist() == [0.0, 1.0]
 
 
 @pytest.mark.one_in(2)

@@ -90,13 +90,16 @@ class Charge(Effect):
         given where the attitude is known, or gamma, which is axis 3 of space in the body."""
         if self.follows_attitude:
             return ()
-        constant = float(precise("cos", exact(self.angle)))
 
         def departure(state: Mapping[str, Sequence[Number]]) -> Number | None:
             if "attitude" in state:
                 a, b, c, d = state["attitude"]
-                return abs((a * a - b * b - c * c + d * d) / constant - 1)
-            return abs(state["gamma"][2] / constant - 1) if "gamma" in state else None
+                cosine = a * a - b * b - c * c + d * d
+            elif "gamma" in state:
+                cosine = state["gamma"][2]
+            else:
+                return None
+            return abs(cosine / float(precise("cos", exact(self.angle))) - 1)
         return (Limit(ANGLE_CHANGE, ANGLE_SHARE, departure, TURNS_AWAY,
                       "Galal et al., charged body: eq. (3) ff.", "the attitude"),)
 
