@@ -206,9 +206,11 @@ class Burning(read.Burning):
                  nutation: str | None = None) -> Simulation:
         """The motion at the given times, over all switches: see `stabilab.simulate`; attitude, nutation: as
         there."""
-        from .answers.simulate import with_nutation
+        from .answers.simulate import axis_of_nutation, with_nutation
         from .answers.stuck.chain import simulate_burn
         from .case.given import time_in
+        if nutation is not None:
+            axis_of_nutation(self.craft, nutation)
         run = simulate_burn(self, time_in(self.craft.scene, times, "times"), attitude)
         return run if nutation is None else with_nutation(self.craft, run, nutation)
 

@@ -205,6 +205,8 @@ def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None =
     wanted = case.span if times is None else time_in(case.scene, times, "times")
     if wanted is None:
         raise InputError("times: expected times for a scene; a case without a span needs them too")
+    if nutation is not None:
+        axis_of_nutation(case, nutation)  # refused before the run, not after it
     result = simulated(case.scene, case.state, wanted, case.blocks, method, rtol, attitude)
     result = result if nutation is None else with_nutation(case, result, nutation)
     return answered(replace(result, frame=oblique(case.frame)), case, result.validity)
@@ -269,17 +271,22 @@ def quaternion_blocks(blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequen
     return {**blocks, "attitude": tuple(scalar_last(quaternion(*turned)).tolist())}
 
 
-def with_nutation(case: Case, run: Simulation, axis: str, scene: Any = None) -> Simulation:
-    """The run with the part "nutation", (n,) rad, of an axis by its name, as of `axis_named`. scene: that of
-    the run, None for that of the case. Raises InputError for scaled variables, which have no body, and for
-    the averages of a model."""
-    if case.variables == "scaled" or "omega" not in run.state:
+def axis_of_nutation(case: Case, axis: str, model: str = "exact") -> Exact3:
+    """The axis whose nutation is asked for by its name, as of `axis_named`, a unit vector along the principal
+    axes. model: of the run. Raises InputError for another name, for scaled variables, which have no body, and
+    for the averages of a model: ask before the run."""
+    if case.variables == "scaled":
         raise InputError("nutation: scaled variables have no body: give the motion as angular_velocity, in "
                          "rad/s")
-    if run.model != "exact":
-        raise InputError("nutation: it is that of the exact motion, and this run is of the model "
-                         f"{run.model}")
-    scene, vector = scene or case.scene, axis_named(case, axis).along
+    if model != "exact":
+        raise InputError(f"nutation: it is that of the exact motion, and this run is of the model {model}")
+    return axis_named(case, axis).along
+
+
+def with_nutation(case: Case, run: Simulation, axis: str, scene: Any = None) -> Simulation:
+    """The run with the part "nutation", (n,) rad, of an axis by its name. scene: that of the run, None for
+    that of the case. Raises InputError as `axis_of_nutation` does."""
+    scene, vector = scene or case.scene, axis_of_nutation(case, axis, run.model)
     angle = nutation_of(scene, run.state, vector)
     error = _error_of_nutation(scene, run, vector, angle) if run.error else None
     return replace(run, state=run.state | {"nutation": angle}, nutation_axis=axis,

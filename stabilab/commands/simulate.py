@@ -8,7 +8,7 @@ from functools import partial
 from ..answers.caveats import answered
 from ..answers.digits_asked import DEFAULT
 from ..answers.digits_run import best_reached, missed
-from ..answers.simulate import Simulation, in_matrices, with_nutation, with_quaternion
+from ..answers.simulate import Simulation, axis_of_nutation, in_matrices, with_nutation, with_quaternion
 from ..answers.stuck.chain import simulate_burn
 from ..case.read import Case, blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError
@@ -19,7 +19,7 @@ from ..show.text import headline, simulation
 from ..show.text import reference as shown
 from ..show.text.aem import epoch_of
 from ..theories.euler_angles import with_euler_angles
-from ..theories.follow import follow
+from ..theories.follow import MODELS, follow
 from ..theories.theory import theory
 from .common import exact_times_asked, load_cases, one_by_one, say_repeated, times_asked, units_asked
 from .runner import View, collected, judge, show
@@ -47,6 +47,9 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
                 f"--{'attitude' if attitude else 'matrix'}: the attitude is that of the exact motion, in one "
                 f"form: give it without --model, --angles and --{'matrix' if attitude else 'attitude'}")
         loaded = [with_quaternion(entry) for entry in loaded]
+    for item in loaded if nutation and model in MODELS else ():
+        with blamed_on(item):
+            axis_of_nutation(item, nutation, model)
     systems = units_asked(loaded, units)
     say_repeated(loaded[0], at)
     if out:

@@ -166,8 +166,9 @@ def _plain_numbers(figure: Figure) -> None:
 
     for ax in figure.axes:
         for axis in filter(None, (ax.xaxis, ax.yaxis, getattr(ax, "zaxis", None))):
-            if type(axis.get_major_formatter()) is ScalarFormatter:
-                axis.set_major_formatter(Plain())
+            usual = axis.get_major_formatter()
+            if type(usual) is ScalarFormatter:
+                axis.set_major_formatter(Plain(usual.get_useOffset(), usual.get_useMathText()))
 
 
 def _drawn(figure: Figure, dpi: float):

@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load, load_burning
 from stabilab.answers.simulate import simulate
 from stabilab.errors import InputError
+from stabilab.integrate import trajectory as trajectories
 from stabilab.physics.effects import effect_class
 from stabilab.physics.states import angles, quaternion, to_space
+from stabilab.theories import cavity
 from tests.oracles import euler
 from tests.oracles.rigid import with_a_direction
 from tests.shared import CASES
@@ -239,3 +241,30 @@ def test_a_run_over_1e14_turns_stops_and_says_so(monkeypatch, method):
     run = simulate(scene, (1e12, 2e12, 3e12), [0.0, 100.0], method=None if method == "taylor" else method)
     assert (run.method, run.status) == (method, "stopped") and run.t.tolist() == [0.0]
     assert re.search("the last [0-9]+ steps went from t = 0 to .*, the rest would take some", run.because)
+
+
+@pytest.fixture
+def runs(monkeypatch):
+    """The runs of series, of SciPy and of averages that were begun."""
+    begun = []
+    for module, name in ((trajectories._Taylor, "run"), (trajectories._SciPy, "run"), (cavity, "follow")):
+        own = getattr(module, name)
+        monkeypatch.setattr(module, name, lambda *arguments, own=own: (begun.append(own), own(*arguments))[1])
+    return begun
+
+
+@pytest.mark.parametrize("name, options, words", [
+    ("dual-spin-damper", ["--method", "taylor"], "axis: expected x, y, z"),
+    ("major-axis-100", ["--method", "taylor"], "scaled variables have no body"),
+    ("burns/stage", [], "axis: expected x, y, z"),
+    ("liquid-base", ["--model", "averaged1"], "this run is of the model averaged1")])
+def test_a_nutation_that_a_run_cannot_have_is_refused_before_a_step_is_taken(name, options, words, stabilab, runs):
+    path = CASES / f"{name}.toml"
+    axis = "z" if "axis" not in words else "q"
+    code, out, err = stabilab("simulate", path, "--at", "0,1", *options, "--nutation", axis)
+    assert (code, out, runs) == (2, "", []) and words in err
+    if "--model" not in options:
+        with pytest.raises(InputError, match=words):
+            (load_burning if "burns" in name else load)(path).simulate([0, 1], nutation=axis)
+        assert runs == []
+    assert stabilab("simulate", path, "--at", "0,1", *options)[0] == 0 and len(runs) > 0

@@ -98,6 +98,18 @@ def test_numbers_at_ticks_are_text_and_a_power_of_ten_is_a_formula(scale, power,
         assert power in ax.yaxis.get_offset_text().get_text()
 
 
+@pytest.mark.parametrize("offset", [True, False])
+def test_numbers_at_ticks_have_an_offset_only_where_the_picture_allows_one(offset, tmp_path):
+    with style.drawing() as plt:
+        figure, ax = plt.subplots()
+        ax.plot([0.0, 1.0], [178.8493, 178.8513])
+        ax.ticklabel_format(axis="y", useOffset=offset)
+        style.save(figure, tmp_path / "a.png")
+        labels = [float(text.get_text()) for text in ax.get_yticklabels()]
+        assert (ax.yaxis.get_offset_text().get_text() != "") == offset
+        assert all((label > 178) != offset for label in labels)
+
+
 CURVES = {  # one ends on another, two end at one point, one is a single point
     "taylor": [(3.0, 1e-5, 0.3), (14.0, 1e-4, 0.3)], "RK45": [(0.5, 2e-3, 0.3), (4.0, 1e-2, 0.3)],
     "DOP853": [(1.0, 3e-3, 0.3), (8.0, 2e-2, 0.31)], "reduced": [(1.0, 3e-3, 4e-3), (8.0, 2e-2, 4e-3)],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -113,6 +114,29 @@ def test_of_a_top_it_is_the_lean_between_the_roots_of_its_cubic():
         low, high = across(ax, style.VIOLET)
         assert found.min() == pytest.approx(low, abs=1e-5) and found.max() == pytest.approx(high, abs=1e-5)
         assert ax.get_ylabel() == "lean (deg)"
+
+
+def test_its_bounds_have_the_digits_that_tell_them_apart():
+    """By hand: of a body with D1 = D2 (1 - 1e-4) the bounds are close to each other; of D1 = D2 both are
+    atan2(D1 w1, D3 w3)."""
+    for first, least in (("2.5", 1), ("2.49975", 2)):
+        text = {"body": {"inertia": [first, "2.5", 1]}, "motion": {"angular_velocity": ["0.03", "0.01", "0.1"], "span": [0, 300]}}
+        with style.drawing():
+            ax = nutation(text, units="deg", axis="z")
+            ends = across(ax, style.VIOLET)
+            printed = [float(n) for n in re.findall(r"[\d.]+", words(ax)[1])]
+        assert len(set(printed)) == len(printed) == least
+        if least == 2:
+            assert printed == pytest.approx(sorted(ends), abs=0.5 * (max(ends) - min(ends)))
+        else:
+            angle = math.degrees(math.atan2(2.5 * math.hypot(0.03, 0.01), 0.1))
+            assert words(ax)[1].startswith("for ever: ") and printed[0] == pytest.approx(angle, rel=1e-4)
+
+
+def test_two_curves_are_angles():
+    with style.drawing():
+        assert nutation(CASES / "thruster-stuck-major-axis.toml", units="deg").get_ylabel() == "angle (deg)"
+        assert nutation(CASES / "toutatis.toml", units="deg").get_ylabel() == "nutation (deg)"
 
 
 def test_a_long_motion_is_the_band_between_its_least_and_greatest():

@@ -17,7 +17,7 @@ from ...errors import InputError
 from ...numbers.vectors import Exact3
 from ...physics.symmetric_top import SymmetricTop
 from .. import style
-from ..units import SHORT, number, with_unit
+from ..units import SHORT, as_bound, number, with_unit
 from . import canvas
 from . import subject as subjects
 from .over_time import EXTREME
@@ -38,6 +38,7 @@ TIMES: dict[str, tuple[str, dict[str, Any]]] = {
     "crosses": ("separatrix crossed", {"color": style.BLACK, "linestyle": "-."}),
     "settles": ("within {angle} of its end", {"color": style.GREY, "linestyle": "-"}),
     "tenth": ("a tenth of the departure", {"color": style.GREY, "linestyle": (0, (5, 1, 1, 1))})}
+DIGITS = 5  # of a bound, unless more are needed to tell two apart
 SMALL = 0.2  # rad, of a departure that a time constant belongs to
 FLAT, AROUND = 1e-7, 0.02  # rad: an angle that varies by less stays; what is shown about it
 
@@ -78,7 +79,8 @@ def nutation(case: Given | Subject, state: Any = None, ax: Axes | None = None, s
         target.set_xlim(t[0], t[-1])
         _room(target, run, per)
         target.set_xlabel(with_unit("time", time_unit))
-        target.set_ylabel(with_unit("nutation" if top is None else "lean", angle_unit))
+        label = "angle" if run.apart is not None else "nutation" if top is None else "lean"
+        target.set_ylabel(with_unit(label, angle_unit))
         return canvas.explained(target, rows if legend else [], ax is None,
                                 item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 
@@ -145,11 +147,15 @@ def _bounds(ax: Axes, item: Subject, axis: Exact3, top: SymmetricTop | None, run
     if ends is not None:
         for end in sorted(set(ends)):
             ax.axhline(end * per, zorder=1.5, **BOUNDS)
-        low, high = (number(end * per, 5) for end in ends)
-        rows.append((f"least to greatest for ever: {low} to {high} {name}", BOUNDS))
+        low, high = (end * per for end in ends)
+        digits = next((n for n in range(DIGITS, 17) if number(low, n) != number(high, n)), DIGITS)
+        text = (f"for ever: {number(high, DIGITS)} {name}" if high - low < FLAT * per
+                else f"least to greatest for ever: {number(low, digits)} to {number(high, digits)} {name}")
+        rows.append((text, BOUNDS))
     if pointing is not None and pointing < math.pi:
         ax.axhline(pointing * per, zorder=1.5, **POINTING_BOUND)
-        rows.append((f"at most {number(pointing * per, 5)} {name} from its start", POINTING_BOUND))
+        at_most = number(as_bound(pointing, per, DIGITS, 1), DIGITS)
+        rows.append((f"at most {at_most} {name} from its start", POINTING_BOUND))
     return rows
 
 
