@@ -301,15 +301,27 @@ def to_throat(base: Sequence[Pair], n: float):
 
 
 # --- Margins
+def rank(height: float, round_a_circle: bool):
+    """The larger, the more a barrier with K of so much decides."""
+    return -height if round_a_circle else -abs(height)
+
+
 def nearest_margin(start: float, direction: float, turn: float, energy: float, base: Sequence[Pair],
                    count: int, points: np.ndarray, fine: np.ndarray):
     """(margin, whether it is certain) of a state at an arc from a base. On a circle: of the highest barrier
     within one turn ahead, -inf without one; else of the one that is nearest in height, inf without one."""
-    round_a_circle, margin = turn < INFINITY, -INFINITY if turn < INFINITY else INFINITY
+    round_a_circle, margin, best = turn < INFINITY, -INFINITY if turn < INFINITY else INFINITY, -INFINITY
+    for n in range(count):
+        point = points[n]
+        ahead = (point[ARC] - start) * direction
+        if point[SLOPE] > 0 and (not round_a_circle or BESIDE_BARRIER < ahead < turn - BESIDE_BARRIER):
+            best = max(best, rank(point[HEIGHT], round_a_circle) - point[ERROR])
     for n in range(count):
         point = points[n]
         ahead = (point[ARC] - start) * direction
         if not point[SLOPE] > 0 or (round_a_circle and not -BESIDE_BARRIER < ahead < turn + BESIDE_BARRIER):
+            continue
+        if rank(point[HEIGHT], round_a_circle) + point[ERROR] < best:  # another decides, to whatever digits
             continue
         if min(abs(ahead), abs(ahead - turn)) <= BESIDE_BARRIER:
             return margin, False

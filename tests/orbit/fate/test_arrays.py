@@ -164,6 +164,19 @@ def test_pure_spins_of_a_sphere_are_written_at_once(monkeypatch):
                                                               found.axis.tolist(), found.sense.tolist()))
 
 
+def test_of_two_barriers_ahead_the_lower_one_may_lack_digits():
+    """Moments equal to 2e-11: one barrier is 1e17 high on the far side of a huge circle, and rounding of that
+    size leaves few digits to the other, nearly a turn ahead. The potential at 60 digits is the check."""
+    scene, problem = physical((0.42, 3.095, 3.0949999999241946), (-1.57, 0, -0.0185), (0, -0.000407, 0))
+    states = np.array([(-1.54061255, -0.71765329, 3.26808756), (-1.65229492, 0.07806115, 0.31658462),
+                       (-1.98195141, 1.0919903, -6.32064863)])
+    found = stabilab.fate(scene, states)
+    assert found.precise == 0
+    for state, margin in zip(states.tolist(), found.margins):
+        assert margin > 1e17
+        assert_margin(problem, state, margin)
+
+
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("name",
                          ["minor scaled +", "minor scaled -", "minor physical", "major physical, other sign",
