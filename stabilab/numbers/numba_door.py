@@ -153,8 +153,6 @@ class Kernel:
                 self._functions = compiled(self.module, self.inlined, self.variant, **self.options,
                                             **self.instead)
                 self.ready = stored(self._functions[self.entry])
-                if self.ready:
-                    _begin_numba()
             self._below_stored = bool(self.below[0]) and stored(self._functions[self.below[0]])
 
     def _announce(self) -> None:
@@ -179,27 +177,6 @@ def _nothing_collected() -> Iterator[None]:
     finally:
         if enabled:
             gc.enable()
-
-
-def _begin_numba() -> None:
-    """Do what numba does before its first compiled call, without SciPy's linear algebra: numba imports that
-    here only to see that it is there, which takes as long as the rest, and again where it is needed."""
-    if "numba.np.arraymath" in sys.modules or not find_spec("scipy"):
-        return
-    try:
-        from numba.core.compiler_lock import global_compiler_lock
-        from numba.core.registry import cpu_target
-        from numba.np import linalg
-        look = linalg.ensure_blas
-    except (ImportError, AttributeError):  # of another version: the first call does it all
-        return
-    with global_compiler_lock:
-        linalg.ensure_blas = lambda: None
-        try:
-            cpu_target.typing_context.refresh()
-            cpu_target.target_context.refresh()
-        finally:
-            linalg.ensure_blas = look
 
 
 def stored(function: Any) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 import gc
 import importlib.util
 import math
-import subprocess
 import sys
 
 import numpy as np
@@ -104,29 +103,6 @@ def test_what_kernels_share_is_paid_for_once(monkeypatch):
     monkeypatch.setattr(numba_door, "stored", lambda function: function == "shared")
     third.account = Account()  # of a process that begins when these are on disk
     assert not third.pays(IMPORT) and third.left() == pytest.approx(2.0 - IMPORT)
-
-
-@with_numba
-def test_loading_leaves_collecting_as_it_was_and_scipy_to_who_needs_it():
-    """In a process of its own; NumPy's product is what numba's, by SciPy's BLAS, has to be."""
-    program = """
-import gc, sys
-import numpy as np
-from stabilab.orbit.fate_arrays import MARGINS
-from stabilab.numbers import numba_door
-gc.disable() if sys.argv[1] == "0" else gc.enable()
-numba_door.stored = lambda function: True
-MARGINS.functions(True)
-from numba import njit
-from numba.np import arraymath, linalg
-print(gc.isenabled() == (sys.argv[1] == "1"), "scipy.linalg" in sys.modules, linalg.ensure_blas.__name__)
-x = np.arange(4.0).reshape(2, 2)
-print(np.array_equal(njit(lambda a: np.dot(a, a))(x), x @ x), "scipy.linalg" in sys.modules)
-"""
-    for collecting in "01":
-        printed = subprocess.run([sys.executable, "-c", program, collecting], capture_output=True, text=True,
-                                 check=True).stdout
-        assert printed.split() == ["True", "False", "ensure_blas", "True", "True"]
 
 
 @pytest.mark.parametrize("enabled", [True, False])
