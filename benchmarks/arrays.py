@@ -1,13 +1,17 @@
-"""Rows of a fresh process: a few states a call or many, plain and compiled, and ten million at once with the
-memory they take. Librations about the intermediate axis, loops compiled beforehand."""
+"""Rows of a fresh process: a few states a call or many, plain and compiled, its time over the number of
+calls, and ten million states at once with the memory they take. Librations about the intermediate axis, loops
+compiled beforehand except where a row says that none is."""
 from __future__ import annotations
 
 import json
 import os
 import subprocess
 import sys
+import tempfile
 from functools import partial
 from pathlib import Path
+
+import numpy as np
 
 from .rows import PEAK, Row
 
@@ -24,15 +28,20 @@ QUESTIONS = ("fate", "period", "extremes")
 
 def measurements(small=False):
     if small:
-        return [partial(in_calls, 10, 100), plain_and_compiled, partial(at_once, "fate", 1000)]
-    return [*(partial(in_calls, each, total) for each in CALLS for total in ROWS if each <= total),
+        return [partial(in_calls, 10, 100), plain_and_compiled, partial(at_once, "fate", 1000),
+                partial(over_calls, "fate", 10, limit=2.0), partial(over_calls, "spin-up", 1, limit=2.0)]
+    return [*(partial(over_calls, question, each) for question in CURVES for each in EACH
+              if question != "spin-up" or each == 1),
+            *(partial(over_calls, *curve, compiled=False) for curve in COMPILED),
+            *(partial(in_calls, each, total) for each in CALLS for total in ROWS if each <= total),
             plain_and_compiled, *(partial(at_once, question, 10_000_000) for question in QUESTIONS)]
 
 
-def _run(code: str) -> list[float]:
+def _run(code: str, begin: str = BEGIN, **environment: str) -> list[float]:
     """What a fresh process prints last, a list in JSON."""
-    printed = subprocess.run([sys.executable, "-c", BEGIN + code], check=True, capture_output=True, text=True,
-                             cwd=ROOT, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}).stdout
+    variables = os.environ | {"OPENBLAS_NUM_THREADS": "1"} | environment
+    printed = subprocess.run([sys.executable, "-c", begin + code], check=True, capture_output=True, text=True,
+                             cwd=ROOT, env=variables).stdout
     return json.loads(printed.splitlines()[-1])
 
 
@@ -85,3 +94,77 @@ print(json.dumps([spent, peak() - before]))""")
     what = f"stabilab.{question} of {total} states in one call"
     return [Row(f"arrays-{question}", what, spent, "s"),
             Row(f"arrays-{question}-peak", f"{what}, peak beyond the process and its input", peak, "bytes")]
+
+
+# --- The time of a process over the number of its calls
+EACH = 1, 10, 100, 900, 1000
+ON_AXIS = """from stabilab import ScaledGyrostat, extremes, fate, period
+scene = ScaledGyrostat("0.5", "3.1", (0, "-0.8", 0))
+states = np.random.default_rng(1).uniform([-5, -5, -6], [5, 5, 6], (50_000, 3))
+"""
+OFF_AXIS = """from stabilab import Body, ConstantTorque, Gyrostat, Scene, fate, spin_up
+scene = Scene(Body((3, 2, 1)), Gyrostat((0.3, -0.1, 0.2)), ConstantTorque((0.3, 0.5, 0.4)))
+states = np.random.default_rng(1).normal(size=(50_000, 3)) * 2
+"""
+# name -> scene, the question in Python, in words
+CURVES = {"fate": (ON_AXIS, "fate", "fates"), "extremes": (ON_AXIS, "extremes", "extremes"),
+          "period": (ON_AXIS, "period", "periods"), "off-axis": (OFF_AXIS, "fate", "fates off the axes"),
+          "spin-up": (OFF_AXIS, "lambda scene, states: spin_up(scene, states[0])", "spin-up")}
+# those of nothing compiled: question, states a call, s that reach beyond compiling
+COMPILED = ("fate", 100, 12.0), ("extremes", 100, 28.0), ("off-axis", 10, 28.0)
+# how a process chooses between plain and compiled loops, or does not
+CHOICES = {"own": "", "plain": "Kernel.pays = lambda kernel, work, fast=None: bool(fast)",
+           "compiled": "Kernel.pays = lambda kernel, work, fast=None: fast is not False"}
+OVER_CALLS = """
+from stabilab.numbers.numba_door import Kernel
+{choice}
+question, times, first = {question}, [], 0
+while time.process_time() < {limit}:
+    question(scene, states[first:first + {each}])
+    first = (first + {each}) % (len(states) - {each})
+    times.append(time.process_time())
+print(json.dumps(times))"""
+
+
+def over_calls(question: str, each: int, limit: float = 2.5, compiled: bool = True) -> list[Row]:
+    """Processor time of a process, its start counted, over the number of its calls: by how much it grows
+    where these double and in one call, at most, and beside loops plain, or compiled, from the beginning."""
+    curves = {choice: _curve(question, each, limit, choice, compiled)
+              for choice in (CHOICES if compiled and each in (1, 100, 1000) else ("own",))}
+    times, name = curves["own"], f"{question}-{each}" + "-empty" * (not compiled)
+    what = (f"{CURVES[question][2]} in a new process, {each} a call"
+            + ", nothing compiled before" * (not compiled))
+    half, one = np.arange(len(times) // 2), np.arange(len(times) - 1)
+    rows = [_grown(f"arrays-double-{name}", f"{what}: twice as many calls", times, half, 2 * half + 1, each),
+            _grown(f"arrays-call-{name}", f"{what}: one more call", times, one, one + 1, each)]
+    if len(curves) > 1:
+        count = min(map(len, curves.values()))
+        better = np.minimum(curves["plain"][:count], curves["compiled"][:count])
+        worst = int(np.argmax(times[:count] / better))
+        rows.append(_row(f"arrays-choice-{name}", f"{what}: beside the better choice", times[worst],
+                         better[worst], "the better of plain and compiled loops", (worst + 1) * each))
+    return rows
+
+
+def _curve(question: str, each: int, limit: float, choice: str, compiled: bool):
+    """(calls,) s of processor time since the start of the process after each of its calls."""
+    scene, function, _ = CURVES[question]
+    code = OVER_CALLS.format(choice=CHOICES[choice], question=function, each=each, limit=limit)
+    begin = "import json, time\nimport numpy as np\n" + scene
+    with tempfile.TemporaryDirectory() as empty:
+        places = {} if compiled else {"NUMBA_CACHE_DIR": empty}
+        return np.array(_run(code, begin, STABILAB_QUIET="1", **places))
+
+
+def _grown(key: str, what: str, times: np.ndarray, before: np.ndarray, after: np.ndarray, each: int) -> Row:
+    """The row of the largest growth of times between calls, given by their indices."""
+    worst = int(np.argmax(times[after] / times[before]))
+    states = (int(after[worst]) + 1) * each
+    return _row(key, what, times[after[worst]], times[before[worst]], "before", states)
+
+
+def _row(key: str, what: str, ours: float, theirs: float, other: str, states: int) -> Row:
+    ratio = float(theirs / ours)
+    return Row(key, what, float(ours), "s", float(theirs), other, ratio, ratio, ratio, f"at {states} states",
+               0.5, "processor time since the start of the process, at the number of calls where the ratio "
+               "is least")

@@ -166,6 +166,29 @@ print(loaded.index(True), round(KERNELS["rows"].spent, 3))
     assert got.split()[0] == "5"  # so many calls cost 0.26 s, the next would pass 0.3
 
 
+def test_fates_load_what_fates_need_when_calls_of_arrays_cost_as_much():
+    """Counted in a process of its own: calls of 0.47 ms beyond compiled code each, and 0.3 s, by hand."""
+    program = """
+import sys
+import numpy as np
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, fate
+from stabilab.orbit.barriers_arrays import BARRIERS
+from stabilab.orbit.extremes_arrays import KERNELS
+from stabilab.orbit.fate_arrays import MARGINS
+from stabilab.unreduced.spin_up.certificate import ADVANCE, DECIDE
+scene = Scene(Body((12, 9, 5)), Gyrostat((0.8, 0, 0)), ConstantTorque((0, 0.02, 0)))
+states = np.random.default_rng(6).normal(size=(12, 3)) / 1000
+calls = 0
+while "numba" not in sys.modules:
+    fate(scene, states)
+    calls += 1
+print(calls, MARGINS.spent, *(bool(kernel._functions)
+                              for kernel in (BARRIERS, MARGINS, *KERNELS.values(), ADVANCE, DECIDE)))
+"""
+    got = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert got.split() == ["639", "0.0", "True", *["False"] * 5]
+
+
 def test_without_numba_plain_python_serves(monkeypatch):
     monkeypatch.setattr(numba_door, "find_spec", lambda name: None)
     numba_door.installed.cache_clear()
