@@ -5,8 +5,10 @@ row or a step in plain Python does not. Nobody knows what a process will be aske
 question whether to rent or to buy: a `Kernel` counts the work that plain Python has done, and loads what is
 compiled when this and what is to come now would cost as much as loading, or compiling, costs. Whatever comes
 afterwards, a process takes at most twice the time of the better choice, and no call more than what was spent
-before and is asked now. All kernels of a process rent together for numba itself (`Account`), each for its own
-code. Work is counted in rows and steps, by what each costs beyond compiled code; no clock is read.
+before and is asked now. All kernels of a process rent together for numba itself (`Account`), each for its
+own code. Loading has two parts, and the first comes when its own price is reached, before half of the whole:
+never do both fall between some number of calls and twice as many. Work is counted in rows and steps, by what
+each costs beyond compiled code; no clock is read.
 
 Both give the same bytes: neither numba nor the interpreter fuses or rearranges operations, and sines,
 exponentials and their like come from the C library for both (`FROM_C`)."""
@@ -32,8 +34,8 @@ import numpy as np
 from ..errors import InputError
 from . import error_free
 
-# s of a processor: importing numba with the first kernel, and another kernel from disk
-IMPORT, LOAD = 0.3, 0.02
+# s of a processor: importing numba, what it does in the first compiled call, and another kernel from disk
+IMPORT, BEGIN, LOAD = 0.15, 0.25, 0.02
 # NumPy's functions that have digits of their own, beside those of the C library that numba calls
 FROM_C: dict[str, Callable[..., float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "arcsin": math.asin, "arccos": math.acos,
@@ -88,6 +90,7 @@ class Kernel:
     _lock: Any = field(default_factory=RLock, repr=False)
     _functions: dict[str, Any] = field(default_factory=dict, repr=False)
     _plain: dict[str, Any] = field(default_factory=dict, repr=False)
+    _stored: bool = False  # on disk when it was looked for
     _below_stored: bool = False
 
     def pays(self, work: float, fast: bool | None = None) -> bool:
@@ -103,9 +106,9 @@ class Kernel:
             return bool(fast)
         with self._lock:
             if not self.ready and work >= self.left():
-                self._look()
-                if work >= self.left():
-                    self._announce()
+                self._step()
+                while not self.ready and work >= self.left():
+                    self._step()
             if not self.ready:
                 self.spent += work
                 self.account.spent += work
@@ -115,18 +118,18 @@ class Kernel:
         """s of plain work after which `pays` says yes, or looks whether compiled code is on disk."""
         if self.ready or not installed():
             return 0.0 if self.ready else math.inf
-        if self._functions:  # it was looked for, and is not on disk
+        if self._functions and not self._stored:
             return max(0.0, self._compiling() - self.spent)
-        if "numba" in sys.modules:
+        if _begun() or (not self._functions and "numba" in sys.modules):
             return max(0.0, LOAD - self.spent)
-        return max(0.0, IMPORT - max(self.spent, self.account.spent))
+        return max(0.0, IMPORT + BEGIN * bool(self._functions) - max(self.spent, self.account.spent))
 
     def functions(self, fast: bool) -> dict[str, Any]:
         """The module's names: compiled, or as they are written."""
         with self._lock:
             if fast:
-                self._look()
-                self._announce()
+                while not self.ready:
+                    self._step()
                 return self._functions
             if not self._plain:
                 self._plain = twins(self.module, lambda name, twin: twin, np=by_the_c_library(),
@@ -146,22 +149,20 @@ class Kernel:
         """Where numba puts compiled code; empty where it has no folder to write to."""
         return getattr(self.functions(True)[self.entry].stats, "cache_path", None) or ""
 
-    def _look(self) -> None:
-        """Import numba, and see whether this code is on disk."""
+    def _step(self) -> None:
+        """Import numba and see whether this code is on disk; after that begin with it, or say on stderr that
+        compiling takes its time."""
         if not self._functions:
             with _nothing_collected():
                 self._functions = compiled(self.module, self.inlined, self.variant, **self.options,
                                             **self.instead)
-                self.ready = stored(self._functions[self.entry])
+            self._stored = stored(self._functions[self.entry])
             self._below_stored = bool(self.below[0]) and stored(self._functions[self.below[0]])
-
-    def _announce(self) -> None:
-        """Say on stderr that compiling takes its time, unless nothing is to be compiled."""
-        quiet = self.ready or _announced or sys.stderr is None or os.environ.get("STABILAB_QUIET")
-        if not quiet:
-            _announced.append(True)
-            print(COMPILING.format(seconds=self._compiling()), file=sys.stderr, flush=True)
-        if not self.ready:
+            return
+        if not self._stored:
+            if not (_announced or sys.stderr is None or os.environ.get("STABILAB_QUIET")):
+                _announced.append(True)
+                print(COMPILING.format(seconds=self._compiling()), file=sys.stderr, flush=True)
             self.account.compiled.add(self.below[0])
         self.ready = True
 
@@ -177,6 +178,11 @@ def _nothing_collected() -> Iterator[None]:
     finally:
         if enabled:
             gc.enable()
+
+
+def _begun() -> bool:
+    """Whether numba has done what it does in the first compiled call: it imports this module there."""
+    return "numba.np.arraymath" in sys.modules
 
 
 def stored(function: Any) -> bool:

@@ -235,7 +235,7 @@ def test_steps_without_the_compiler_give_the_same_bits(plain, monkeypatch):
         told, direction = [], rng.choice((None, (0, 1, 0)))
         for spent in (math.inf, IMPORT - (plain + 0.5) * STEP, -math.inf):
             kernel = Kernel(ADVANCE.module, ADVANCE.entry, ADVANCE.seconds, spent=spent)
-            kernel._price = lambda: IMPORT
+            kernel.left = lambda kernel=kernel: 0.0 if kernel.ready else max(0.0, IMPORT - kernel.spent)
             monkeypatch.setattr("stabilab.unreduced.enclosure.ADVANCE", kernel)
             course = Course(scene, state, 40.0, direction=direction)
             bands = [course.advance(40.0, 12, band=True), course.advance(40.0, 3, band=True)]
