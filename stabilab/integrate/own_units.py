@@ -9,9 +9,11 @@ powers of two the change is exact.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
+from operator import itemgetter
 
 import numpy as np
 
@@ -72,7 +74,7 @@ def units_of(equations: Equations, state: np.ndarray) -> Units:
 
 def are_ordinary(equations: Equations, now: np.ndarray, quick: np.ndarray, size: np.ndarray) -> np.ndarray:
     """(m,) which motions are followed in units of 1, at a glance at the sizes of their rates, `sizes_of`."""
-    if not set(equations.blocks) <= RATES | PLAIN:
+    if not _has_units(equations):
         return np.ones(len(size), bool)
     with np.errstate(all="ignore"):
         fraction = quick / np.where(now > 0, now, size)
@@ -82,7 +84,7 @@ def are_ordinary(equations: Equations, now: np.ndarray, quick: np.ndarray, size:
 
 def _ordinary(equations: Equations, now: float, quick: float, size: float) -> bool:
     """`are_ordinary` of one motion, by the sizes of its rates; size is neither 0 nor infinite."""
-    if not set(equations.blocks) <= RATES | PLAIN:
+    if not _has_units(equations):
         return True
     similar = quick == 0 or 1 / UNLIKE <= quick / (now if now > 0 else size) <= UNLIKE
     return _slow(equations) <= size <= 2.0**FAST and similar
@@ -91,10 +93,10 @@ def _ordinary(equations: Equations, now: float, quick: float, size: float) -> bo
 def _sizes_of_one(equations: Equations, state: np.ndarray) -> tuple[float, float, float]:
     """`sizes_of` one state (n,): a glance by plain floats, which cost a short run less than arrays; these
     where a number leaves their range, which floats refuse."""
-    turning, rates = _turning_indices(equations), state.tolist()
+    turning, rates = _turning_of_row(equations), state.tolist()
     try:
         changes = to_numpy(equations).rate(rates)
-        now, quick = (max([abs(row[i]) for i in turning]) for row in (rates, changes))
+        now, quick = max(map(abs, turning(rates))), max(map(abs, turning(changes)))
         if math.isfinite(sum(changes)):
             return now, quick, max(now, math.sqrt(quick))
     except ArithmeticError:
@@ -116,6 +118,12 @@ def _turning_indices(equations: Equations) -> list[int]:
     return np.nonzero(_turning(equations))[0].tolist()
 
 
+@lru_cache(maxsize=64)
+def _turning_of_row(equations: Equations) -> Callable[[list[float]], tuple[float, ...]]:
+    """What picks the rates, three at least, from a state."""
+    return itemgetter(*_turning_indices(equations))
+
+
 def sizes_of(equations: Equations, states: np.ndarray, changes: np.ndarray | None = None
              ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(m,) the largest rate of states (m, n), its largest change, and the size of the rates: theirs, or what
@@ -128,6 +136,13 @@ def sizes_of(equations: Equations, states: np.ndarray, changes: np.ndarray | Non
         return now, quick, np.maximum(now, np.sqrt(quick))
 
 
+@lru_cache(maxsize=64)
+def _has_units(equations: Equations) -> bool:
+    """Whether all of the state are rates, which may have a unit of their own, or of size 1."""
+    return set(equations.blocks) <= RATES | PLAIN
+
+
+@lru_cache(maxsize=64)
 def _slow(equations: Equations) -> float:
     return SLOW_BESIDE if set(equations.blocks) & PLAIN else 2.0**SLOW
 
