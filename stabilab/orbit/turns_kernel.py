@@ -85,20 +85,27 @@ def fastest_behind(energy: float, direction: float, base: Sequence[Pair], count:
     return fastest
 
 
+def rate_of(over: float, energy: float, w: float, sign: float):
+    """omega_i + s of so much K; the state's own, to the last digit, where K is that of the state."""
+    return w if over == energy else sign * np.sqrt(2 * over)
+
+
 def spin_range(w: float, energy: float, direction: float, base: Sequence[Pair], count: int,
                points: np.ndarray, fine: np.ndarray):
     """(least, most) of omega_i + s over the future; NaN where one is unclear."""
     if direction != 0:
         if w * direction < 0:
-            slowest = -direction * np.sqrt(2 * fastest_behind(energy, direction, base, count, points, fine))
+            over, sign = fastest_behind(energy, direction, base, count, points, fine), -direction
         else:
-            slowest = direction * np.sqrt(2 * slowest_ahead(energy, direction, base, count, points, fine))
+            over, sign = slowest_ahead(energy, direction, base, count, points, fine), direction
+        slowest = rate_of(over, energy, w, sign)
         return (slowest, INFINITY) if direction > 0 else (-INFINITY, slowest)
     slow, fast = energy, energy
     for n in range(count):
         height = settled_height(points[n], base, fine)
         slow, fast = min(slow, height) if height > 0 else np.nan, max(fast, height)
-    one, other = np.copysign(np.sqrt(2 * slow), w), np.copysign(np.sqrt(2 * fast), w)
+    sign = np.copysign(1.0, w)
+    one, other = rate_of(slow, energy, w, sign), rate_of(fast, energy, w, sign)
     return min(one, other), max(one, other)
 
 
@@ -108,15 +115,20 @@ def turned_box(state: np.ndarray, axes: Sequence[int], base: Sequence[Pair], n: 
     digits."""
     j, k, i = axes
     e, shift = fine[E, 0], fine[SHIFT, 0]
+    own, error = state[i] + shift, 0.0
     low_u, high_u, error_u = full_range(state[j], value(base[ALONG_U]), value(base[BEND_U]), n, e)
     low_v, high_v, error_v = full_range(state[k], value(base[ALONG_V]), value(base[BEND_V]), n, e)
     box[j, 0], box[j, 1] = min(low_u, state[j]), max(high_u, state[j])
     box[k, 0], box[k, 1] = min(low_v, state[k]), max(high_v, state[k])
-    box[i, 0], box[i, 1] = min(low - shift, state[i]), max(high - shift, state[i])
-    smaller = min(abs(low), abs(high))  # the other may be without bound
+    for end in range(2):
+        rate = high if end else low
+        box[i, end] = state[i] if rate == own else rate - shift
+        if rate != own and abs(rate) < INFINITY:  # where a shift cancels, the state's own alone keeps digits
+            error = max(error, 4 * ULP * (abs(rate) + abs(shift)))
+    box[i, 0], box[i, 1] = min(box[i, 0], state[i]), max(box[i, 1], state[i])
     return (error_u <= DIGITS * max(abs(box[j, 0]), abs(box[j, 1]))
             and error_v <= DIGITS * max(abs(box[k, 0]), abs(box[k, 1]))
-            and 4 * ULP * (smaller + abs(shift)) <= DIGITS * min(abs(box[i, 0]), abs(box[i, 1])))
+            and error <= DIGITS * min(abs(box[i, 0]), abs(box[i, 1])))
 
 
 def turns(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: np.ndarray, turn: float,

@@ -122,6 +122,18 @@ def test_a_wheel_on_the_axis_of_symmetry_leaves_a_slow_spin_about_it_its_digits(
                                        np.hypot(state[0], state[2]), rel=1e-12)
 
 
+def test_slow_spins_about_the_axis_of_a_wheel_need_no_many_digits(monkeypatch):
+    """D = (2, 2, 3): D3 w3' = M3 whatever the rest, so w3 begins at its least; (w1, w2) turns on its circle."""
+    monkeypatch.setattr("stabilab.orbit.extremes_arrays.precise_extremes",
+                        lambda *a: pytest.fail("a slow spin went to ball arithmetic"))
+    scene = Scene(Body((2, 2, 3)), Gyrostat((0, 0, 500)), stabilab.ConstantTorque((0, 0, 0.25)))
+    states = np.random.default_rng(4).normal(size=(200, 3)) * [1, 1, 1e-2]
+    boxes, radii = stabilab.extremes(scene, states), np.hypot(states[:, 0], states[:, 1])
+    assert np.array_equal(boxes[:, 2, 0], states[:, 2]) and (boxes[:, 2, 1] == np.inf).all()
+    for k in range(2):
+        assert boxes[:, k] == pytest.approx(np.stack([-radii, radii], axis=-1), rel=1e-14)
+
+
 @pytest.mark.parametrize("steps", range(-3, 4))
 def test_a_circle_that_may_or_may_not_touch_a_line_of_equilibria_is_judged_exactly(steps):
     """D1 = D3: the equilibria lie on a line, which the circle of the state touches to rounding: is there a
