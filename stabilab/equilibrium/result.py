@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import InputError
-from ..numbers.polynomial import Poly
+from ..numbers.polynomial import Poly, rounded_ratios
 from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, Float3
 from ..reasons import Reason, Reasoned
@@ -154,7 +154,7 @@ class RationalCurve:
         """The equilibrium at a float t, each coordinate rounded once; InputError at a pole or a t that is not
         finite."""
         try:
-            return tuple(float(v) for v in self.exact_point(Fraction(t)))
+            return rounded_ratios(self.numerators, self.denominator, Fraction(t))
         except (ZeroDivisionError, OverflowError, ValueError):
             raise InputError(
                 f"t = {t!r} lies at an end of the curve ({self.description.name}): no equilibrium there"

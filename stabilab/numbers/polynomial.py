@@ -93,6 +93,15 @@ def _flint(value: Number) -> fmpq_poly | fmpq:
     return value.flint if isinstance(value, Poly) else rational(value)
 
 
+def rounded_ratios(numerators: Iterable[Poly], denominator: Poly, t: Fraction) -> tuple[float, ...]:
+    """numerators(t)/denominator(t), each rounded once: without fractions of Python in between, which take
+    most of the time. ZeroDivisionError at a zero of the denominator, OverflowError beyond the doubles."""
+    at = rational(t)
+    bottom = denominator.flint(at)
+    ratios = [numerator.flint(at) / bottom for numerator in numerators]
+    return tuple(int(ratio.p) / int(ratio.q) for ratio in ratios)
+
+
 def real_roots(p: Poly, bits: int = 160) -> list[Fraction]:
     """Every real root of a nonzero polynomial once, rising, within 2**-bits relative, rational ones exactly;
     none is missed and none is invented."""
