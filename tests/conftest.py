@@ -12,6 +12,7 @@ from stabilab import cli
 from stabilab.rubbish import OBJECTS_BETWEEN_COLLECTIONS
 from stabilab.show import style
 
+gc.disable()  # until all tests are there, which all stay: the collector would look through them again and again
 os.environ["STABILAB_QUIET"] = "1"  # whether a command takes longer than a second hangs on the machine
 os.environ["MPLBACKEND"] = "Agg"  # no window
 settings.register_profile("same", derandomize=True, deadline=None)
@@ -47,6 +48,7 @@ def pytest_collection_finish():
     seldom as in the program itself."""
     gc.freeze()
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
+    gc.enable()
 
 
 @pytest.fixture(autouse=True)
@@ -71,6 +73,12 @@ def no_title_has_more_than_two_lines():
     style.save = checked
     yield
     style.save = save
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    """A page without its pictures, which take most of its time."""
+    monkeypatch.setattr("stabilab.show.report.one_case.pictures", lambda *given: [])
 
 
 @pytest.fixture

@@ -584,7 +584,7 @@ has_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(),
 
 # In turn while typer, numpy, sympy and heyoka are imported (which swallows exceptions), and inside compiled
 # code.
-@pytest.mark.one_in(7)
+@pytest.mark.one_in(14)
 @has_proc
 @pytest.mark.parametrize("delay", [0, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 2.0])
 @pytest.mark.parametrize("program", [["-m", "stabilab"], console_script()], ids=["module", "script"])

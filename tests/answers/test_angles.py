@@ -40,7 +40,7 @@ def _random(n):
     return case, D, wheel, M, w, C
 
 
-@pytest.mark.first(6, 30)
+@pytest.mark.first(4, 20)
 @pytest.mark.parametrize("n", range(300))
 def test_the_angles_of_a_random_motion_are_the_largest_of_its_run(n):
     case, D, wheel, torque, w, damping = _random(n)

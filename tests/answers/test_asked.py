@@ -114,7 +114,7 @@ OPTIONAL = {"span", "until", "reach", "shape", "accuracy", "t_max", "rtol", "ste
             "exact"}
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("given", [*NO_NUMBERS, [[1, 2, 3], [4, 5]], [10**400, 0, 0], np.zeros((0, 3)),
                                    np.zeros((2, 2, 3)), [float("inf"), 0, 0], lambda: 0],
                          ids=lambda one: f"{one!r:.20}")

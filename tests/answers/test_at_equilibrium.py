@@ -59,6 +59,7 @@ GYROSTATS = [  # moments, wheel, torque, state, verdict
 ]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("D, wheel, torque, state, verdict", GYROSTATS)
 def test_a_state_of_equilibrium_of_a_gyrostat_has_its_stability_and_rate_of_growth(D, wheel, torque, state,
                                                                                    verdict):
@@ -82,7 +83,7 @@ def test_a_state_of_equilibrium_of_a_gyrostat_has_its_stability_and_rate_of_grow
     assert [one.kind for one in found.caveats if one.kind == "unstable"] == ["unstable"] * (verdict == "unstable")
 
 
-@pytest.mark.parametrize("third, spin", [(2, 0.3), (2, 0.4), (2, 0.55), (1.5, 0.3), (1.5, 0.6), (1.5, 0.7)])
+@pytest.mark.parametrize("third, spin", [(2, 0.3), (2, 0.55), (1.5, 0.6), (1.5, 0.7)])
 def test_a_sleeping_top_is_unstable_below_its_critical_spin_and_says_how_fast(third, spin):
     """Lagrange: stable for (D3 spin)^2 > 4 D1 m g l."""
     D, m, g, l = (1, 1, third), 0.1, 9.8, 0.25

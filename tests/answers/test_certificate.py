@@ -18,7 +18,7 @@ def checked(scene, state=None):
     return verify(json.loads(json.dumps(certificate(scene, state))))
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
 def test_the_certificate_of_a_case_is_proved(path):
     case = load(path)

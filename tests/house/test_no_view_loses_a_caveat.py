@@ -86,9 +86,9 @@ def test_every_command_shows_a_new_caveat_in_every_view(stabilab, probed, usual,
         assert any(one["code"] == "probe" and one["kind"] == "stated" for one in found)
 
 
-@pytest.mark.one_in(8)
+@pytest.mark.one_in(16)
 @pytest.mark.parametrize("kind", list(Kind))
-def test_a_caveat_of_every_kind_is_in_every_view(monkeypatch, stabilab, usual, tmp_path, kind):
+def test_a_caveat_of_every_kind_is_in_every_view(monkeypatch, stabilab, usual, tmp_path, undrawn, kind):
     """No view chooses by the kind what it leaves out: kinds that some view treats by itself as well."""
     monkeypatch.setattr(caveats, "CAVEATS", (*caveats.CAVEATS, lambda known: (Caveat(kind, PROBE()),)))
     shown = {(name, *form): stabilab(name, usual, *NEEDS.get(name, ()), *form)[1]
@@ -121,7 +121,7 @@ def test_without_the_function_no_view_has_it(stabilab, usual):
     assert WORDS not in stabilab("fate", usual)[1]
 
 
-def test_a_page_the_explorer_and_python_show_a_new_caveat(probed, usual, tmp_path):
+def test_a_page_the_explorer_and_python_show_a_new_caveat(probed, usual, tmp_path, undrawn):
     case = package.load(usual)
     made = one_case.sections(case, tmp_path, "case", deep=False)
     assert any(WORDS in words.lower() for words in made["caveats"])

@@ -267,7 +267,7 @@ MOVING = [(form, path) for form, path in KEYS if form not in ("burning", "orbit"
 
 
 @pytest.mark.parametrize("form, path", later(MOVING), ids=[f"{form}: {path[0]}.{path[-1]}" for form, path in MOVING])
-def test_page_and_explorer_say_of_every_key_that_it_is_uncertain(tmp_path, form, path):
+def test_page_and_explorer_say_of_every_key_that_it_is_uncertain(tmp_path, form, path, undrawn):
     for told, wanted in ((text(FORMS[form]), False), (loosened(form, path), True)):
         (tmp_path / "case.toml").write_text(told)
         case = load(tmp_path / "case.toml")

@@ -19,7 +19,7 @@ from tests.shared import FAMILIES, PARABOLIC
 ALL = FAMILIES | PARABOLIC
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("name", ALL)
 def test_random_states_of_every_family(name):
     states = np.random.default_rng(sorted(ALL).index(name)).normal(size=(16, 3)) * 2.5
@@ -193,7 +193,7 @@ HARD = [
 ]
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("pair, state, digits", HARD)
 def test_states_at_which_an_answer_was_wrong(pair, state, digits):
     agrees(pair, [state], digits)

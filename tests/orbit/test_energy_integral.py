@@ -152,6 +152,7 @@ NEGATIVE = {
                         - 4 * math.atan2(x[0] + a, -x[1]))}
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("axis", range(3))
 @pytest.mark.parametrize("seed", range(4))
 def test_a_negative_torque_has_the_integral_of_the_state_turned_by_half(seed, axis):
@@ -176,6 +177,7 @@ def test_a_negative_torque_has_the_integral_of_the_state_turned_by_half(seed, ax
         assert same.difference == pytest.approx(found.difference, rel=1e-9)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("order", [*permutations((12, 9, 5))])
 @pytest.mark.parametrize("axis", range(3))
 def test_a_body_turned_by_half_with_its_wheels_has_the_same_integral(order, axis):

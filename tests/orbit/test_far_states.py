@@ -75,7 +75,7 @@ def test_rates_up_to_the_largest_doubles_have_a_fate_and_no_margin_that_is_no_do
     assert least == pytest.approx(2 * 0.02 / -3 / rate, rel=1e-11) or rate > 1e300
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("effects", [(Gyrostat((1, 2, 3)),), (ConstantTorque((1, 1, 0)),),
                                      (Gyrostat((1, 0, 0)), ConstantTorque((1, 0, 0)))])
 @pytest.mark.parametrize("power", [-300, -160, 160, 200])
@@ -92,7 +92,7 @@ def test_scenes_without_a_reduction_answer_or_refuse_any_rate(effects, power):
 ORDERS, TORQUES = ((0, 1, 2), (2, 0, 1), (1, 2, 0)), ((1.0, 1.0), (1e-5, 1e8), (0.0, 1e300))
 
 
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("order, beside, torque",
                          # each of both comes up
                          [pytest.param(order, *pair, marks=() if m == n else pytest.mark.slow)

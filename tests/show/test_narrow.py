@@ -38,7 +38,7 @@ def edges_are_free(path):
     return min(grey[:, :2].min(), grey[:, -2:].min(), grey[:2].min(), grey[-2:].min()) > 200
 
 
-@pytest.mark.first(3, 12)
+@pytest.mark.first(2, 12)
 @pytest.mark.parametrize("name, kind", PAIRS)
 def test_no_letter_of_a_narrow_picture_is_below_nine_pixels_and_nothing_is_cut_off(name, kind, tmp_path,
                                                                                   monkeypatch):

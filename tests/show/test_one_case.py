@@ -39,12 +39,6 @@ def _space(case):
     return moved, one_case.space(one, equilibria(case.scene), units_of(case))
 
 
-@pytest.fixture
-def undrawn(monkeypatch):
-    """A page without its pictures, which take most of its time."""
-    monkeypatch.setattr("stabilab.show.report.one_case.pictures", lambda *given: [])
-
-
 def _places(packed):
     return np.frombuffer(base64.b64decode(packed), "<i2").reshape(-1, 3) / 4095.0
 

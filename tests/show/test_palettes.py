@@ -159,7 +159,7 @@ def pictures(case):
         yield from ((kind, figure) for figure in (made if isinstance(made, list) else [made.figure]))
 
 
-@pytest.mark.first(2, 4)
+@pytest.mark.first(1, 4)
 @pytest.mark.parametrize("name", ["wheel-and-thruster", "dual-spin-damper", "top-lx30-lz30", "charged-body",
                                   "thruster-stuck-major-axis", "t-handle", "upper-stage"])
 def test_no_colour_of_a_page_means_two_things(name):

@@ -114,7 +114,7 @@ def slow(command, name):
     return command == "precision" or name == SLOW and command not in ("fate", "simulate")
 
 
-@pytest.mark.one_in(5)
+@pytest.mark.one_in(10)
 @pytest.mark.parametrize("command, name",
                          [pytest.param(command, name, marks=pytest.mark.slow if slow(command, name) else [])
                                            for command, (_, names) in ASKED.items() for name in names])

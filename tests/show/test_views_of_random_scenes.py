@@ -106,17 +106,23 @@ def asked(command: str, path, *more: str):
 
 
 def rows():
+    """One command of each kind of scene; every command of few scenes, slow; of all."""
     for command, tabled in commands():
-        for name in SCENES:
-            if command not in SLOW or name == SCENES[0]:
-                place = SCENES.index(name)
-                quick = place < len(KINDS) and command == QUICK[place % len(QUICK)]
-                marks = [] if quick else [pytest.mark.slow] if name in SCENES[:FEW] and command not in SLOW else LONG
-                yield pytest.param(command, tabled, name, marks=marks)
+        quick = [name for n, name in enumerate(SCENES[:len(KINDS)]) if command == QUICK[n % len(QUICK)]]
+        slow = [name for name in SCENES[:FEW] if name not in quick and command not in SLOW]
+        for name in (*quick, *slow):
+            yield pytest.param(command, tabled, [name], marks=[] if name in quick else [pytest.mark.slow],
+                               id=f"{command}-{name}")
+        yield pytest.param(command, tabled, SCENES[:1] if command in SLOW else SCENES, marks=LONG, id=command)
 
 
-@pytest.mark.parametrize("command, tabled, name", list(rows()))
-def test_every_number_and_every_caveat_of_a_command_is_in_all_its_views(command, tabled, name, scenes):
+@pytest.mark.parametrize("command, tabled, names", list(rows()))
+def test_every_number_and_every_caveat_of_a_command_is_in_all_its_views(command, tabled, names, scenes):
+    for name in names:
+        has_all(command, tabled, name, scenes)
+
+
+def has_all(command, tabled, name, scenes):
     text = asked(command, scenes[name])
     if text["exit"] == 2:  # another command's case
         assert text["message"] and not text["answer"]
@@ -138,7 +144,7 @@ def view_texts(case, folder) -> dict[str, str]:
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[] if n in (1, 13) else [pytest.mark.slow] if n < FEW else LONG)
                                   for n, name in enumerate(SCENES) if not name.startswith(("burning", "satellite"))])
-def test_python_page_and_explorer_have_every_caveat_and_the_level(name, scenes, tmp_path):
+def test_python_page_and_explorer_have_every_caveat_and_the_level(name, scenes, tmp_path, undrawn):
     case = package.load(scenes[name])
     for question in ("fate", "extremes", "period", "motion", "equilibria"):
         found = getattr(case, question)()

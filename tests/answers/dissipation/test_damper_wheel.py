@@ -44,6 +44,7 @@ def in_space(D, J, c, axis, wheel, omega, s, times, k=0.0, phi=0.0):
     return omega, s, energy
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("axis", [(0, 0, 1), (1, 2, -2), (3, 0, 1)])
 @pytest.mark.parametrize("wheel", [(0, 0, 0), (0.4, -0.1, 0.3)])
 def test_runs_as_wheel_and_body_in_space_do(axis, wheel):

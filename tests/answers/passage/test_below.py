@@ -60,9 +60,9 @@ def _random(n):
 
 
 # of kind 3, off the axes, a spin-up is followed for seconds
-@pytest.mark.parametrize("n", [*(n for n in range(24) if n % 6 != 3),
-                               *(pytest.param(n, marks=[pytest.mark.slow, *[pytest.mark.long] * (n >= 84)])
-                                 for n in range(300) if n >= 24 or n % 6 == 3)])
+@pytest.mark.parametrize("n", [*(n for n in range(12) if n % 6 != 3),
+                               *(pytest.param(n, marks=[pytest.mark.slow, *[pytest.mark.long] * (n >= 72)])
+                                 for n in range(300) if n >= 12 or n % 6 == 3)])
 def test_a_random_motion_is_below_a_rate_when_its_event_run_is_or_never(n):
     case, rates, start, limit = _random(n)
     time, _ = _run(rates, start, limit)

@@ -55,7 +55,7 @@ def _random(n):
     return case, rates, [*w, *[0.0] * (3 if k else 0)], _angle(D, wheel, k)
 
 
-@pytest.mark.first(10, 40)
+@pytest.mark.first(4, 32)
 @pytest.mark.parametrize("n", range(300))
 def test_a_random_motion_is_at_an_angle_when_its_event_run_is_or_never(n):
     case, rates, start, cosine = _random(n)

@@ -35,6 +35,7 @@ def scene_of(D, wheel, torque):
     return Scene(Body(exact(D)), Gyrostat(exact(wheel)), ConstantTorque(exact(torque)))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("D, wheel, torque, start", SCENES)
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_at_the_time_the_component_is_at_its_limit(D, wheel, torque, start, axis):

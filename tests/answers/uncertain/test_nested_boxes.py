@@ -96,7 +96,7 @@ def nested(seed):
     return rows, inner, outer
 
 
-@pytest.mark.parametrize("seed", [0, 5, 6, *later((1, 2, 3, 4, *range(7, 48)))])
+@pytest.mark.parametrize("seed", [0, *later(range(1, 48))])
 def test_a_box_around_another_is_never_the_safer_one(case_file, seed):
     rows, *boxes = nested(seed)
     inner, outer = (uncertain(load(case_file(written(rows, half))), ("fate",)).fate for half in boxes)

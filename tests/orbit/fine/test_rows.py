@@ -94,6 +94,7 @@ def assert_exact(one, states, boxes, periods, left):
             assert time == pytest.approx(precise_period(orbit, Fate.BOUNDED), rel=1e-11), state.tolist()
 
 
+@pytest.mark.one_in(2)
 @each
 @pytest.mark.parametrize("by_numba", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_all_rows_are_settled_with_the_digits_of_balls_and_of_a_potential_in_many_digits(name, by_numba):

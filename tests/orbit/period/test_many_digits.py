@@ -188,6 +188,7 @@ def test_the_remainder_of_few_terms_is_within_its_bound():
                     assert ball.overlaps(exact) and abs(ball.mid() - exact.mid()) <= bound * 1.01
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("decade", [6, 15, 30])
 def test_beside_a_barrier_the_period_under_a_torque_is_proved(decade):
     # the start is at rest 10^-decade before the place of the saddle: an unstable place that it leaves slowly

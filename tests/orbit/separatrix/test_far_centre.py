@@ -45,6 +45,7 @@ def scene_of(name, *numbers):
                           stabilab.ConstantTorque(torque)), homoclinic.Gyrostat(moments, wheel, torque)
 
 
+@pytest.mark.one_in(2)
 @scenes
 def test_places_keep_the_digits_of_their_own_size_however_far_the_centre_is(name):
     """To first order; a unit in the last place of the components moves a place by as much."""

