@@ -79,7 +79,7 @@ def attitude(scene: Given, state: Start | None = None, digits: int | None = None
         angles = "--angles gives Euler angles of the vertical over time, " * ("gamma" in of.blocks)
         raise InputError("attitude: it is known of a body with wheels and a torque constant in the body, and "
                          "of a symmetric top under its weight or in a field, with wheels along its axis; "
-                         f"this scene also has {others}. simulate {angles}--attitude the turn in space")
+                         f"this scene also has {others}. simulate {angles}--attitude gives the turn in space")
     result = limited(motion(of, start, needs=Needs.RETURN, exact=exact), of, case)
     if top is None:
         return of_motion(of, exact, result, digits)

@@ -209,20 +209,23 @@ class Table:
         return None
 
     def numbers(self, key: str, count: int) -> tuple[Fraction, ...] | None:
-        """`count` exact numbers, all of their faults noted."""
+        """`count` exact numbers, all of their faults noted; one may stand without brackets."""
         value = self.data.get(key)
         if value is None:
             return None
-        text = {1: "one", 2: "two", 3: "three"}[count]
+        text = {1: "one number", 2: "two numbers", 3: "three numbers"}[count]
+        if count == 1 and not isinstance(value, list):
+            single = self.number(key)
+            return None if single is None else (single,)
         if not isinstance(value, list):
             self.fault(
-                f"expected {text} numbers in square brackets, got "
+                f"expected {text} in square brackets, got "
                 f"{described(value)}"
                 f"{_in_brackets(value, count) or _then(cure_of_numbers(self.path, key, value, count))}", key)
             return None
         if len(value) != count or all(isinstance(item, list) for item in value):
             cure = cure_of_numbers(self.path, key, value, count)
-            self.fault(f"expected {text} numbers, got {_counted(value)}{_then(cure)}", key)
+            self.fault(f"expected {text}, got {_counted(value)}{_then(cure)}", key)
             return None
         cure = (cure_of_numbers(self.path, key, value, count)
                 if any(isinstance(item, list) for item in value) else "")

@@ -88,6 +88,9 @@ OPEN_ROTATION = Sentence(
 TAKES_ENERGY = Sentence(
     "takes-energy", "{part} keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so "
     "the motion is bounded and tends to permanent rotations of its |H|")
+TAKES_ALL = Sentence(
+    "takes-all-energy", "{part} keeps |H| = 0 and takes energy wherever the body turns (LaSalle), so the "
+    "motion is bounded and all comes to rest")
 ON_ITS_SIDE = Sentence(
     "energy-below-next-axis", "{part} keeps |H| and takes energy at every rotation that is not permanent "
     "(LaSalle), so the motion is bounded; its energy is below that of rotation about {next} at this |H|, so "
@@ -390,6 +393,8 @@ def _permanent(parts: Content, H: Sequence[Fraction], twice: Fraction | int,
     bound = (_sqrt(twice / parts.rest_of_moments) if parts.damper_inside
              else size / float(min(parts.D)))
     bounds = {"energy": float(twice) / 2, "momentum": size, "rate_bound": bound}
+    if not square:
+        return Fate.BOUNDED, TAKES_ALL(part=what), bounds | {"late_rate_bound": 0.0}
     first, second = order[:2]
     if parts.D[first] == parts.D[second]:
         return Fate.BOUNDED, TAKES_ENERGY(part=what), bounds

@@ -119,3 +119,16 @@ def test_other_bodies_in_a_field_are_refused_with_what_gives_their_angles(stabil
     assert code == 2 and "simulate --angles gives Euler angles of the vertical over time" in err
     with pytest.raises(InputError, match="a symmetric top under its weight or in a field"):
         package.attitude(Scene(Body((3, 2, 1)), NewtonianField(4)), {"omega": [1, 0, 0], "gamma": [1, 0, 0]})
+
+
+def test_a_top_that_cannot_precess_steadily_says_so_with_the_sign_of_its_spin(stabilab, case_file):
+    """By hand: the axis to the centre of mass is -z, so 2 rad/s about z is a spin of -114.592 deg/s, and the wheel has 2
+    N m s along it; A W^2 cos(lean) - L W + M g l = 0 has real roots where (4 s + 2)^2 >= 4 A M g l cos(lean)."""
+    least = np.sqrt(4 * 3 * 10 * 0.8 / np.hypot(0.5, 0.8))
+    path = case_file("[body]\ninertia = [3, 3, 4]\n[effects.gravity]\nweight = 20\ncentre_of_mass = [0, 0, -0.5]\n"
+                     "[effects.gyrostat]\nmomentum = [0, 0, -2]\n[motion]\nangular_velocity = [0.1, 0.2, 2]\n"
+                     "vertical = [0.5, 0, 0.8]\n")
+    low, high = (f"{np.degrees(end):.6g}" for end in ((-least - 2) / 4, (least - 2) / 4))
+    text = stabilab("attitude", path)[1]
+    assert f"none at a lean of 32.0054 deg and a spin of -114.592 deg/s, only at spins below {low} deg/s and above {high} " in text
+    assert "(now -114.592 deg/s)" in text

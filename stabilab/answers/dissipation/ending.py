@@ -33,7 +33,7 @@ from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import System, to_numpy
 from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence
 from ...representation import Compared, Shown
-from ...unreduced.bounds import OPEN_DIRECTION, OPEN_ROTATION
+from ...unreduced.bounds import OPEN_DIRECTION, OPEN_ROTATION, TAKES_ALL
 from ..passage import MOVED, WIDER
 from ..simulate import trajectory
 from . import gyrostat as gyrostats
@@ -135,6 +135,8 @@ def with_end(case: Case, motion: Motion) -> Motion:
         reason = reason.without(OPEN_DIRECTION)
     if result is not None and result.kind != "undecided":
         reason = reason.without(OPEN_ROTATION)
+    if result is not None and result.reason == NO_MOMENTUM:  # exactly; in doubles a little may be left
+        reason = TAKES_ALL(part="the damper")
     return replace(motion, ending=result, reason=reason)
 
 

@@ -40,6 +40,7 @@ from ...case.source import parsed
 from ...errors import Caveat, InputError, Kind, without
 from ...numbers.units import ANGLE, MOMENTUM, in_si
 from ...numbers.vectors import Float3, cross, dot
+from ...physics.coefficients import content
 from ...physics.states import moved_row
 from ...reasons import Angle, Axis, Quantity, Reason, Reasoned, Sentence
 from ...representation import Answer, Compared
@@ -68,6 +69,9 @@ BY_PHASE = Sentence(
     "ends-by-phase", "two greatest moments are equal: the energy falls to that of rotation about an axis in "
     "their plane, and which one hangs on the phase alone: the start turned about the minor axis by an angle "
     "ends at an axis turned by that angle")()
+BY_START = Sentence(
+    "ends-by-start", "two greatest moments are equal: the energy falls to that of rotation about an axis in "
+    "their plane, and which one hangs on the start")()
 PLANE_NOT_REACHED = Sentence("plane-not-reached",
                              "two greatest moments are equal, and the angular momentum is not within "
                              "{within} of their plane by the end of the run: {why}")
@@ -300,11 +304,14 @@ def _timed(spinner: Spinner, result: FlatSpin, angle: float, spans: bool) -> Fla
         return result
     why = first.why or runs[1].why or ENDED
     if D1 == D2:
+        parts = content(spinner.scene)
+        # a wheel or a mass has a phase of its own
+        across = BY_START if parts is not None and parts.movers else BY_PHASE
         if "settles" not in ahead:  # near their plane already, from which the falling energy keeps it
-            return replace(result, outcome=ACROSS, level="exact", reason=BY_PHASE)
+            return replace(result, outcome=ACROSS, level="exact", reason=across)
         return (replace(result, reason=PLANE_NOT_REACHED(within=Angle(angle), why=why))
                 if "settles" not in visited[0]
-                else replace(result, outcome=ACROSS, level="run", reason=BY_PHASE))
+                else replace(result, outcome=ACROSS, level="run", reason=across))
     if "crosses" not in visited[0] or "crosses" not in visited[1]:
         return replace(result, reason=NOT_CROSSED(why=why))
     second: dict[str, Any] = {"moved": int(MOVED), "tolerance": Quantity(SECOND_RTOL, digits=1)}

@@ -211,7 +211,9 @@ class Run:
         self.spinner, self.state, self.rtol, self.most = spinner, state, rtol, most
         self.t, self.steps, self.validity = 0.0, 0, None
         self.why: Reason | None = None
-        self.length = 100 / (float(np.linalg.norm(state[:3])) if pace is None else pace)
+        # a body at rest round something that turns is soon as fast as at its end
+        self.length = 100 / (max(float(np.linalg.norm(state[:3])), spinner.size / float(spinner.moments[0]))
+                             if pace is None else pace)
 
     def over(self, state: np.ndarray, times: np.ndarray) -> Any:
         return trajectory(self.spinner.scene, state, times, rtol=self.rtol, laws=False)

@@ -497,9 +497,10 @@ def crossing_time(chain: Chain, ask: dict[str, Any], until: Fraction | None) -> 
     case, closed, limit = chain.case, chain.closed, asked(chain.base, **ask)
     if limit.reached_by(case.exact_state or case.state):
         return Found(0.0, 0.0, "exact", reason=AT_THE_START)
-    if until is None and limit.kind == "rate" and chain.free:
-        largest = limit_after(chain.base, in_si(ask["rate"], RATE, "rate"))
-        after = crossing_of(chain, largest) or first_along(list(links_of(chain)), largest)
+    kept = (limit_after(chain.base, in_si(ask["rate"], RATE, "rate")) if limit.kind == "rate" and chain.free
+            else limit if limit.kind == "energy" and chain.quiet else None)
+    if until is None and kept is not None:  # g, or the energy, stays after the last closing
+        after = crossing_of(chain, kept) or first_along(list(links_of(chain)), kept)
         if after.never:
             return replace(after, reason=NEVER_WITH_THRUSTERS)
     end = until if until is not None else max(closed, Fraction(case.span[1]) if case.span else closed)

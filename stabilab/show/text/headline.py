@@ -370,6 +370,9 @@ def largest_key(motion: Motion) -> dict:
     upper = [None if pair is None or None in pair else max(map(abs, pair)) for pair in pairs or (None,) * 3]
     sharp = motion.largest is not None and motion.for_all_time
     value = motion.largest if sharp else None if None in upper else math.hypot(*upper)
+    bound = motion.invariants.get("rate_bound", math.inf)
+    if not sharp and math.isfinite(bound) and (value is None or not motion.for_all_time):
+        value = bound  # as text has it: for all time, where the extremes are those of a span
     return {"value": value, "bound": not sharp, "components": upper}
 
 

@@ -334,10 +334,13 @@ def top_rows(top: TopRates | None, units: Units) -> list[tuple[str, str]]:
         if nutations := _nutations(top, units):
             rows.append(("small nutation", f"period {nutations}"))
     elif top.spins is not None:
-        rows.append(("steady precession", f"at a lean of {lean} {_outside(top.spins, units)}"))
+        rows.append(("steady precession", f"none at a lean of {lean} and a spin of {spin}, only "
+                                          f"{_outside(top.spins, units)}"))
     for name, unstable in (("upright", top.upright), ("hanging", top.hanging)):
         if unstable is not None:
-            rows.append((name, f"stable {_outside(unstable, units)}"))
+            # a spin is counted about the axis to the centre of mass, which may be that against z
+            now = "" if unstable[0] == -unstable[1] else f" (now {spin})"
+            rows.append((name, f"stable {_outside(unstable, units)}{now}"))
         elif name == "upright":
             rows.append((name, "stable at every spin"))
     return rows

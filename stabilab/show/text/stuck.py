@@ -380,7 +380,8 @@ def burn_rows(case, result, units: Units) -> list[str | Row]:
         rows.append((units.moment(switch.time), f"firing: {firing}; rates "
                                                 f"{units.vector(_seen(case, switch.rates), units.rates)}"))
     if len(result.switches) > SHOWN:
-        rows.append(("", f"and {len(result.switches) - SHOWN} more switches, in --json"))
+        more = len(result.switches) - SHOWN
+        rows.append(("", f"and {more} more switch{'es' * (more > 1)}, in --json"))
     return [*rows, f"why: {units.said(result.closed.motion.reason)}"]
 
 

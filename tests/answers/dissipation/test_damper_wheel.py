@@ -192,6 +192,9 @@ def test_absent_is_free_and_faults_say_what_to_do(tmp_path):
     case = load(text)
     assert case.start == (0.1, 0.2, 1.0, 0.5)
     assert load(stabilab.case.write.data_of_scene(case.scene, {"omega": case.state, **case.blocks})).start == case.start
+    assert load(text.replace("[0.5]", "0.5")).start == load(text.replace("[0.5]", '"500 mrad/s"')).start == case.start
+    with pytest.raises(InputError, match="expected one number, got 2"):
+        load(text.replace("[0.5]", "[0.5, 1]"))
     with pytest.raises(InputError, match="no damper wheel is in this body"):
         load(text.replace("[effects.damper_wheel]\ninertia = 0.1\ncoefficient = 0.2\naxis = [0, 0, 1]\n", ""))
 
@@ -206,3 +209,16 @@ def test_a_wheel_that_the_body_cannot_hold_is_one_fault_of_its_line(moments, sha
         load(text.format(share + 0.01))
     (problem,) = error.value.problems
     assert (problem.line, problem.key) == (6, "effects.damper_wheel.inertia")
+
+
+def test_a_wheel_across_two_equal_moments_gives_the_phase_to_no_end():
+    """DOP853: a start turned by a right angle about the minor axis does not end at an axis turned by one."""
+    ends = []
+    for start in ((0.01, 0, 1), (0, 0.01, 1)):
+        omega, *_ = in_space(np.array([2.0, 2, 1]), 0.1, 0.1, (1, 0, 0), np.zeros(3), np.array(start, float), 0.0, [4000])
+        ends.append(np.arctan2(omega[-1, 1], omega[-1, 0]))
+    assert abs(np.sin(ends[1] - ends[0])) < 0.995  # 1 if the end turned with the start
+    text = ("[body]\ninertia = [2, 2, 1]\n[effects.{}]\ninertia = 0.1\ncoefficient = 0.1\n{}"
+            "[motion]\nangular_velocity = [0.01, 0, 1]\n")
+    assert flat_spin(load(text.format("damper_wheel", "axis = [1, 0, 0]\n"))).reason.code == "ends-by-start"
+    assert flat_spin(load(text.format("viscous_damper", ""))).reason.code == "ends-by-phase"

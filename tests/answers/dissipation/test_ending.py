@@ -184,7 +184,25 @@ def test_a_body_without_angular_momentum_comes_to_rest():
     """D omega + k sigma = 0 at the start."""
     one = case((3, 2, 1), (0.1, 0.1, 0.1), "damper = [-3, -2, -1]",
                viscous_damper={"inertia": 0.1, "coefficient": 0.3})
-    assert motion(one).ending.kind == "rest"
+    assert motion(one).ending.kind == "rest" and motion(one).reason.code == "takes-all-energy"
+
+
+@pytest.mark.parametrize("omega", [(0, 0, 0), (0, 0, 1e-12)])
+def test_a_damper_that_turns_in_a_body_at_rest_brings_it_into_a_flat_spin(omega):
+    """DOP853: which way it ends, and |H|/D1."""
+    end = motion(case((3, 2, 1), omega, "damper = [1, 2, 3]", viscous_damper={"inertia": 0.1, "coefficient": 0.1})).ending
+    run = followed(damped((3, 2, 1), 0.1, 0.1), [*omega, 1, 2, 3], 2200)
+    assert (end.kind, end.sense) == ("flat spin", np.sign(run.y[0, -1]))
+    assert end.rate == pytest.approx(abs(run.y[0, -1]), rel=1e-2)
+
+
+def test_json_has_the_bound_of_all_time_where_extremes_are_of_a_span(tmp_path, stabilab):
+    """The bound of the linear damper by hand: one moment, c = C/D, |omega| <= max(|omega(0)|, M/C)."""
+    path = tmp_path / "slow.toml"
+    path.write_text(CASE.format(D=[2, 2, 2], omega=[0.1, 0.2, 0.2], more="span = [0, 5]", effects=(
+        "[effects.rate_damper]\ncoefficient = 0.5\n[effects.constant_torque]\ntorque = [0.04, 0, 0.03]")))
+    (row,) = json.loads(stabilab("fate", path, "--json")[1])
+    assert row["numbers"]["largest_rate"]["value"] == pytest.approx(0.3, rel=1e-9)
 
 
 def test_what_loses_nothing_has_no_end():

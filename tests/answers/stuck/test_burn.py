@@ -263,6 +263,18 @@ def test_a_stuck_thruster_beside_a_burn_goes_on_after_it(tmp_path):
     assert closed.fired == (3.0, None) and closed.largest_rate is None
 
 
+@pytest.mark.parametrize("wheel", [(0, 0, 0), (0.3, -0.2, 0.5)])
+def test_an_energy_above_that_of_the_burn_is_never_reached(tmp_path, wheel):
+    """DOP853: the largest energy while the thruster fires; without a torque it stays, with wheels too."""
+    D, rates, torque = [3.0, 2.0, 1.5], [0.1, 0.2, 0.05], [0.02, 0.01, 0.05]
+    path = case_of(tmp_path, D, rates, [(torque, "stop = 9")], more=wheels(wheel) if any(wheel) else "")
+    times = np.linspace(0, 9, 2001)
+    energy = (run(D, torque, rates, 9, wheel, dense=True).sol(times) ** 2 * np.array([D]).T).sum(axis=0) / 2
+    burning = stabilab.load_burning(path)
+    above, below = (burning.when(energy=share * energy.max()) for share in (1.001, 0.999))
+    assert (above.low, above.level) == (math.inf, "proved") and 0 < below.low < below.high <= 9
+
+
 def test_a_stuck_thruster_alone_is_one_that_opens_at_the_start(tmp_path):
     stuck = case_of(tmp_path, [3.0, 2.0, 1.5], [0.1, 0.2, 0.05], [([0.01, 0, 0.15], "stuck = true")])
     case, text = stabilab.load(stuck), stuck.read_text()
