@@ -283,10 +283,11 @@ def axis_of_nutation(case: Case, axis: str, model: str = "exact") -> Exact3:
     return axis_named(case, axis).along
 
 
-def with_nutation(case: Case, run: Simulation, axis: str, scene: Any = None) -> Simulation:
-    """The run with the part "nutation", (n,) rad, of an axis by its name. scene: that of the run, None for
-    that of the case. Raises InputError as `axis_of_nutation` does."""
-    scene, vector = scene or case.scene, axis_of_nutation(case, axis, run.model)
+def with_nutation(case: Case, run: Simulation, axis: str) -> Simulation:
+    """The run with the part "nutation", (n,) rad, of an axis by its name. Raises InputError as
+    `axis_of_nutation` does."""
+    scene: Any = case.scene  # that of a body, as the next line sees to
+    vector = axis_of_nutation(case, axis, run.model)
     angle = nutation_of(scene, run.state, vector)
     error = _error_of_nutation(scene, run, vector, angle) if run.error else None
     return replace(run, state=run.state | {"nutation": angle}, nutation_axis=axis,
