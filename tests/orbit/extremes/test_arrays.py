@@ -156,7 +156,7 @@ def test_next_to_the_centre_of_the_hyperbola_the_shift_costs_no_digits(off):
 
 def test_small_arrays_never_load_numba():
     code = ("import sys, numpy as np\nfrom benchmarks.rows import SCENE, random_states\n"
-            "from stabilab import extremes, period\nextremes(SCENE, random_states(900)); period(SCENE, "
-            "random_states(100))\n"
+            "from stabilab import extremes, period\nextremes(SCENE, random_states(300)); period(SCENE, "
+            "random_states(50))\n"
             "sys.exit('numba' in sys.modules)")
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
