@@ -29,7 +29,7 @@ QUESTIONS = ("fate", "period", "extremes")
 def measurements(small=False):
     if small:
         return [partial(in_calls, 10, 100), plain_and_compiled, partial(at_once, "fate", 1000),
-                partial(over_calls, "fate", 10, limit=2.0), partial(over_calls, "spin-up", 1, limit=2.0)]
+                partial(over_calls, "fate", 10), partial(over_calls, "spin-up", 1)]
     return [*(partial(over_calls, question, each) for question in CURVES for each in EACH
               if question != "spin-up" or each == 1),
             *(partial(over_calls, *curve, compiled=False) for curve in COMPILED),
@@ -111,7 +111,7 @@ CURVES = {"fate": (ON_AXIS, "fate", "fates"), "extremes": (ON_AXIS, "extremes", 
           "period": (ON_AXIS, "period", "periods"), "off-axis": (OFF_AXIS, "fate", "fates off the axes"),
           "spin-up": (OFF_AXIS, "lambda scene, states: spin_up(scene, states[0])", "spin-up")}
 # those of nothing compiled: question, states a call, s that reach beyond compiling
-COMPILED = ("fate", 100, 12.0), ("extremes", 100, 28.0), ("off-axis", 10, 28.0)
+COMPILED = ("fate", 100, 9.0), ("extremes", 100, 26.0), ("off-axis", 10, 26.0)
 # how a process chooses between plain and compiled loops, or does not
 CHOICES = {"own": "", "plain": "Kernel.pays = lambda kernel, work, fast=None: bool(fast)",
            "compiled": "Kernel.pays = lambda kernel, work, fast=None: fast is not False"}
@@ -126,7 +126,7 @@ while time.process_time() < {limit}:
 print(json.dumps(times))"""
 
 
-def over_calls(question: str, each: int, limit: float = 2.5, compiled: bool = True) -> list[Row]:
+def over_calls(question: str, each: int, limit: float = 2.0, compiled: bool = True) -> list[Row]:
     """Processor time of a process, its start counted, over the number of its calls: by how much it grows
     where these double and in one call, at most, and beside loops plain, or compiled, from the beginning."""
     curves = {choice: _curve(question, each, limit, choice, compiled)
