@@ -497,12 +497,11 @@ def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateR
 def flat_mask(land: Landscape, states: np.ndarray):
     """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin
     back."""
+    if land.conic is None and not land.reduction.kappa:  # a sphere: on all parabolas alike
+        flat = land.sense != 0 and len(states) > 0 and _is_flat(land.reduction, states[0])
+        return np.full(len(states), flat)
     small = land.nearly_flat(states)
-    rows = np.nonzero(small)[0]
-    if rows.size and not land.reduction.kappa:  # a sphere: on all parabolas alike
-        small[:] = _is_flat(land.reduction, states[rows[0]])
-        rows = rows[:0]
-    for index in rows:
+    for index in np.nonzero(small)[0]:
         small[index] = _is_flat(land.reduction, states[index])
     return small
 
