@@ -326,6 +326,7 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
         rho = 0.5 * (last[0] - first[0])
         if not rho > 0:
             continue
+        settles = True
         for sharp in range(2):
             if sharp:
                 first, last = sharp_end(first, middle, fine), sharp_end(last, middle, fine)
@@ -336,14 +337,15 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
                 top, error = fastest_of(energy, fastest, left, right, count, points, base, fine)
                 if boxed(state, axes, middle, n, first, last, top, error, fine, boxes[row]):
                     request -= BOX
-            if request & PERIOD:
+            if request & PERIOD and settles:
                 period, error = period_about(series, rho, first[0], last[0], t, nodes)
+                settles = error < INFINITY  # else sharper ends are no help
                 for end in (first, last):
                     error += end[3] * (1 / rho + abs(end[2] / end[1]))
                 if error <= PERIOD_DIGITS:
                     periods[row] = period
                     request -= PERIOD
-            if not request:
+            if not request or (request == PERIOD and not settles):
                 break
         if request & PERIOD:
             total, off = stops_between(left, right, start, origin, base, count, points, fine, stops)

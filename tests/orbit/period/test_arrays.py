@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.extremes_arrays import extremes_and_periods
-from stabilab.orbit.period import power_of_error
+from stabilab import Fate
+from stabilab.orbit import arc_kernel, rows_kernel
+from stabilab.orbit.extremes_arrays import extremes_and_periods, rules
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.one_orbit import Orbit
+from stabilab.orbit.period import power_of_error, precise_period
+from stabilab.orbit.rows_kernel import PERIOD
 from tests.oracles import energy
 from tests.oracles.pairs import physical
 from tests.shared import PARABOLIC
@@ -56,3 +61,25 @@ def test_the_error_by_rate_is_the_power_that_squares_with_every_doubling():
     assert power_of_error(-1.0, -2.0, -4.0) == pytest.approx(-8.0)
     assert power_of_error(-1.0, -2.0, -30.0) == pytest.approx(-8.0)
     assert power_of_error(-1.0, -15.0, -4.0) > 0
+
+
+def test_beside_the_separatrix_a_sum_that_cannot_settle_is_left_early(monkeypatch):
+    """All 128 nodes, twice, take 130 pairs of values. The period in balls is the check."""
+    scene = physical((3, 2, 1), (0.4, 0.1, 0), (0, 0, 0.05))[0]
+    states, counts = np.random.default_rng(1).normal(size=(400, 3)), {"period_about": 0, "parts_of": 0}
+    height = stabilab.fate(scene, states * [1, 1, 0]).margins
+    reached = np.isfinite(height) & (height > 0)
+    states[reached, 2] = np.sqrt(2 * height[reached]) * (1 - 10 ** np.linspace(-9, -5, reached.sum()))
+
+    def counted(module, name):
+        function = getattr(module, name)
+        return lambda *args: (counts.update({name: counts[name] + 1}), function(*args))[1]
+    for module, name in ((rows_kernel, "period_about"), (arc_kernel, "parts_of")):
+        monkeypatch.setattr(module, name, counted(module, name))
+    land, rows = landscape(scene), states[reached][:12]
+    periods, left_open = np.empty(12), np.full(12, PERIOD, np.uint8)
+    with np.errstate(all="ignore"):
+        rows_kernel.rows(rows, np.arange(12), *land.kernel_input, rules(), np.empty((0, 3, 2)), periods, left_open)
+    assert not left_open.any() and counts["period_about"] == 12 and counts["parts_of"] <= 12 * 33
+    exact = [precise_period(Orbit(land.reduction, row), Fate.BOUNDED) for row in rows.tolist()]
+    assert periods == pytest.approx(exact, rel=1e-11)
