@@ -121,15 +121,15 @@ def test_draws_that_are_no_body_are_left_out_and_counted():
     ("stuck", {"outcomes", "largest", "reached", "time"})])
 def test_commands_give_percentiles_in_every_view(stabilab, case_file, command, keys):
     path = case_file(SPIN_UP.format("0.02, sigma 5 %"))
-    options = (command, path, "--samples", "30", "--seed", "2", "--workers", "1")
+    options = (command, path, "--samples", "10", "--seed", "2", "--workers", "1")
     text, told = stabilab(*options)[1], json.loads(stabilab(*options, "--json")[1])
     told = (told[0] if isinstance(told, list) else told)["percentiles"]
-    assert "30 draws" in text and "samples, no proof" in text and told["number"] == 30 and told["seed"] == 2
+    assert "10 draws" in text and "samples, no proof" in text and told["number"] == 10 and told["seed"] == 2
     assert {name for name in ("reached", "outcomes", "time", "largest") if told[name]} == keys
     if told["time"]:
         median = told["time"]["quantiles"][1]
         assert median["least"] < median["high"] < median["greatest"] and f"median {median['high'] / 60:.4g}" in text
-        assert sum(told["time"]["histogram"]["counts"]) + told["time"]["histogram"]["beyond"] == 30
+        assert sum(told["time"]["histogram"]["counts"]) + told["time"]["histogram"]["beyond"] == 10
     if command in ("when", "extremes", "stuck"):
         rows = stabilab(*options, "--csv")[1]
         assert rows.startswith("case,quantity,of,low,high,least,greatest,caveats\n") and "no proof" in rows
@@ -198,15 +198,15 @@ angular_velocity = [0, 0, 0.02]
 
 def test_each_thruster_alone_has_its_percentiles(stabilab, case_file):
     """About z, whose torque is 0.3 m times the force: the time of each draw by hand, as of `time`."""
-    path, options = case_file(THRUSTERS), ("--samples", "6", "--seed", "2", "--workers", "1")
+    path, options = case_file(THRUSTERS), ("--samples", "3", "--seed", "2", "--workers", "1")
     text = stabilab("stuck", path, "--all-thrusters", *options)[1]
     told = json.loads(stabilab("stuck", path, "--all-thrusters", *options, "--json")[1])["percentiles"]
     assert [row["thruster"] for row in told] == ["A", "B"]
-    assert "case: A, 6 draws" in text and "case: B, 6 draws" in text and "nothing is drawn of C" in text
+    assert "case: A, 3 draws" in text and "case: B, 3 draws" in text and "nothing is drawn of C" in text
     for name, force, row in (("A", 'force = "0.1 N, sigma 5 %"', told[0]), ("B", 'force = "0.2 N +- 5 %"', told[1])):
         alone = THRUSTERS.replace("stuck = true\n", "").replace(force, f"{force}\nstuck = true")
-        drawn = planned(load(alone), (), samples=6, seed=2).sampled.values(0, 6)[:, 0]
-        found = percentiles(THRUSTERS, 6, 2, thruster=name)
+        drawn = planned(load(alone), (), samples=3, seed=2).sampled.values(0, 3)[:, 0]
+        found = percentiles(THRUSTERS, 3, 2, thruster=name)
         assert found.time.low == pytest.approx(time(0.3 * drawn), rel=1e-11) and found.thruster == name
         assert row["time"]["quantiles"][1]["low"] == found.time.quantiles[1].low
     rows = stabilab("stuck", path, "--all-thrusters", *options, "--csv")[1]

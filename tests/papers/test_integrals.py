@@ -81,12 +81,10 @@ def test_the_printed_rows_hold_what_30_71_and_79_give():
     assert table.extremes_table(4).rows[1][-1] == pytest.approx(by_79, rel=1e-14)
 
 
-@pytest.mark.parametrize("name", ["G1", "G2", "G3"])
-def test_the_audit_finds_an_integral_by_its_name(stabilab, name):
-    equation = {"G1": "30", "G2": "71", "G3": "79"}[name]
-    for paper in (("constant-torque",), ()):
-        code, out, _ = stabilab("audit", *paper, "--equation", name)
-        assert code == 0 and any(line.startswith(f"{equation} ") for line in out.splitlines())
+@pytest.mark.parametrize("paper, name, equation", [((), "G1", "30"), (("constant-torque",), "G3", "79")])
+def test_the_audit_finds_an_integral_by_its_name(stabilab, paper, name, equation):
+    code, out, _ = stabilab("audit", *paper, "--equation", name)
+    assert code == 0 and any(line.startswith(f"{equation} ") for line in out.splitlines())
 
 
 def test_an_equation_that_no_paper_has_is_refused(stabilab):

@@ -282,7 +282,13 @@ def _sums(terms: Terms, coefficients: np.ndarray, parts: int, shift: Sequence[in
     no terms one that is 0."""
     exponents, places, degrees = worked_out(_columns, terms.shape, parts, *shift)
     size = degrees * exponents.shape[1]
-    return exponents, np.bincount(places, coefficients, size).reshape(degrees, -1)
+    return exponents, _table(places, coefficients, size).reshape(degrees, -1)
+
+
+def _table(places: np.ndarray, numbers: np.ndarray, size: int) -> np.ndarray:
+    """The sums of the numbers at each place, in doubles: of nothing NumPy makes whole numbers, for which the
+    kernel would be compiled once more."""
+    return np.bincount(places, numbers, size).astype(float, copy=False)
 
 
 def _columns(shape: Shape, parts: int, up: int, over: int):
@@ -302,7 +308,7 @@ def _quantity(terms: Terms, parts: int):
     half, twice, places, degrees = worked_out(_powers, terms.shape)
     c = twice * terms.c[half]
     size = exponents.shape[1] * degrees.shape[1]
-    values = np.stack([np.bincount(places, numbers, size).reshape(exponents.shape[1], -1)
+    values = np.stack([_table(places, numbers, size).reshape(exponents.shape[1], -1)
                        for numbers in (c.real, c.imag)])
     return exponents, sums, largest, values, degrees
 

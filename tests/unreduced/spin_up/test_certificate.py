@@ -5,7 +5,8 @@ import random
 import numpy as np
 import pytest
 
-from stabilab.unreduced.spin_up import elimination
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.unreduced.spin_up import certificate, elimination
 from stabilab.unreduced.spin_up.centres import FixedCentre, moving_centre
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.form import forms_of
@@ -43,6 +44,15 @@ def test_a_second_scene_works_out_no_exponents_and_forgetting_them_changes_no_nu
     monkeypatch.setattr(elimination, "_WORKED_OUT", {})
     monkeypatch.setattr(elimination, "MAX_BYTES", 100_000)  # forgotten again and again
     assert tables(second) == numbers and 0 < len(elimination._WORKED_OUT) < count
+
+
+def test_tables_are_of_one_type_also_where_they_hold_no_term():
+    """A kernel is compiled once for each: without a wheel, the torque on an axis, an amplitude has no terms."""
+    body, torques = Body((12, 9, 5)), (ConstantTorque((0, 0, "0.02")), ConstantTorque(("0.3", "0.5", "0.4")))
+    scenes = [Scene(body, *wheel, torque) for wheel in ((), (Gyrostat((0, 0, "0.8")),)) for torque in torques]
+    types = [[item.dtype for item in Certifier(field, (2, 4)).numbers if isinstance(item, np.ndarray)]
+             for tests in map(certificate.tests_of, scenes) for field in tests.fixed + tests.moving]
+    assert len(types) > 4 and all(item == types[0] for item in types)
 
 
 def test_worked_example_is_trapped_within_the_printed_constants():
