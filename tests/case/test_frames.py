@@ -61,6 +61,7 @@ def alike(scene, seeds, digits):
         assert np.allclose(values, numbers, rtol=1e-8), seed
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene", EVEN)
 def test_the_answers_are_those_in_the_principal_axes(scene):
     alike(scene, (1,), "shortest")

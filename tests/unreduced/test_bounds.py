@@ -84,6 +84,7 @@ def test_a_bound_of_the_rates_needs_no_square_that_is_a_double(size, effect, blo
     assert bound / size == pytest.approx(6**0.5, rel=1e-3)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("C, wheel, tends", [
     (((1, -1, 0), (-1, 1, 0), (0, 0, 1)), (0, 0, 0), ()), (((1, -1, 0), (-1, 1, 0), (0, 0, 1)), (0, 0, 2), ()),
     ((0, 1, 2), (0, 0, 0), None), ((0, 1, 2), (0.25, 0, 0), None), ((0, 1, 2), (0, 0.25, 0), ()),

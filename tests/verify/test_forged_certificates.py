@@ -250,7 +250,7 @@ def forge_all(claims, seed, count, paths=None, each=None):
 SOME, EVERY, MANY = {"count": 2, "paths": 2}, {"count": 4, "each": 2}, {"count": 200}
 
 
-@pytest.mark.one_in(8)
+@pytest.mark.one_in(16)
 @pytest.mark.parametrize("limits, least", [
     pytest.param(SOME, 150, id="some claims"), pytest.param(EVERY, 30, id="every claim"),
     pytest.param(MANY, 3000, id="many times", marks=[pytest.mark.slow, pytest.mark.long])])

@@ -240,6 +240,7 @@ def test_eddy_currents_name_no_axis_of_the_largest_moment_where_there_are_severa
     assert words in found.because and along == pytest.approx(last[:3] @ last[3:], rel=1e-5)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("others", [(ConstantTorque((1, 0, 0)),), (Gravity(1, (0, 0, 1)),), (Gyrostat((1, 0, 0)),),
                                     (LiquidCavity(1, 1, 1),), (RateDamper("0.1"),),
                                     (ViscousDamper("0.1", 1),)])
