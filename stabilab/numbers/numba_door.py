@@ -96,6 +96,8 @@ class Kernel:
 
     def functions(self, fast: bool) -> dict[str, Any]:
         """The module's names: compiled, or as they are written."""
+        if fast and self.ready:
+            return self._functions
         with self._lock:
             if fast:
                 self._look()

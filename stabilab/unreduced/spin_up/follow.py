@@ -92,6 +92,7 @@ class Chased:
     blur: np.ndarray
     reach: np.ndarray
     given_up: dict[int, Reason] = field(default_factory=dict)
+    work: dict[int, tuple[np.ndarray, ...]] = field(default_factory=dict)  # by test
 
 
 def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budget: int, after: float = 0.0,
@@ -154,8 +155,10 @@ def _ask(out: Chased, rows: np.ndarray, which: Sequence[tuple[FixedCentre | Movi
     for form, orders in which:
         if not rows.size:
             break
-        test, number = out.tests.certifier(form, orders), out.tests.asked.index((form, orders))
-        test.decide(rows, out.states, out.reach, out.fired, number, out.constants, fast)
+        test, number = out.tests.certifier(form, orders, fast), out.tests.asked.index((form, orders))
+        if number not in out.work:
+            out.work[number] = test.work()
+        test.decide(rows, out.states, out.reach, out.fired, number, out.constants, fast, out.work[number])
         rows = rows[out.fired[rows] < 0]
 
 
