@@ -46,11 +46,11 @@ axis 1): d2 = 0, q = s l1 is constant, l2 = 0 and n3 = 0; every term of the rate
 must fall faster than 1/x, and its integral is infinite where one does not (`kernel.tail`)."""
 from __future__ import annotations
 
-from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
+from ...numbers.ratio import ratios
 from .elimination import Algebra, Elimination, Terms, conjugate, product, terms_of, times, total
 from .form import NormalForm, over_root
 
@@ -112,8 +112,9 @@ class MovingCentre:
     name, sharp, parts = "moving centre", False, 4
 
     def __init__(self, D, wheel, torque, basis, s, axis=None, sense=1):
-        """D, wheel, torque: Fractions in the frame of the form, M1 > 0. basis: its three axes in principal
-        axes of the body, rows. axis, sense: of the body where the form's axis 1 is one of its axes."""
+        """D, wheel, torque: exact numbers in the frame of the form, M1 > 0. basis: its three axes in
+        principal axes of the body, rows. axis, sense: of the body where the form's axis 1 is one of its
+        axes."""
         (D1, D2, D3), (l1, l2, l3), (M1, M2, M3) = D, wheel, torque
         d2, d3 = D1 - D2, D1 - D3
         self.basis, self.s, self.axis, self.sense = np.array(basis, float), s, axis, sense
@@ -209,9 +210,11 @@ def moving_centre(form, scene) -> MovingCentre | None:
     ones."""
     if scene.variables == "scaled":
         return None
-    vectors = [tuple(Fraction(t) * v[n] for t, n in zip(form.turn, form.order))
-               for v in (scene.vector("gyrostat"), scene.vector("constant_torque"))]
-    D = tuple(scene.body.exact[n] for n in form.order)
+    vectors = [tuple(t * v[n] for t, n in zip(form.turn, form.order))
+               for v in map(ratios, (scene.vector("gyrostat"), scene.vector("constant_torque")))]
+    exact = scene.body.exact
+    D = tuple(ratios(exact)[n] for n in form.order)
     basis = [[t * (n == m) for m in range(3)] for t, n in zip(form.turn, form.order)]
-    return MovingCentre(D, *vectors, basis, 1 if D[0] > D[1] else -1,  # type: ignore[call-arg]
+    s = 1 if exact[form.axis] > exact[form.order[1]] else -1
+    return MovingCentre(D, *vectors, basis, s,  # type: ignore[call-arg]
                         form.axis, form.sense)
