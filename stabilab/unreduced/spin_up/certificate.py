@@ -52,7 +52,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -77,7 +76,7 @@ if TYPE_CHECKING:
 # --- The kernels, compiled or as written
 # of tests; of steps, by whose number all are loaded. s of a processor that compiling each takes
 BARE: dict[str, object] = {"allocating": False,
-                           "entries": {"begin", "run", "end", "measure", "over", "decide"}}
+                           "entries": {"advance", "run", "measure", "decide"}}
 DECIDE = Kernel(kernel, "decide", 3.0, options=BARE)
 ADVANCE = Kernel(steps, "run", 4.0, inlined={"power_of_two", "logarithm", "two_to", "ended"},
                  variant=f"{steps.SIDE_BY_SIDE}_", options=BARE | {"LANES": steps.SIDE_BY_SIDE})
@@ -262,9 +261,12 @@ class Certifier:
         """The test for those of rows that no test has fired for, balls of radius reach (n,) about states (n,
         3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the
         theorem. work: of `work`, new ones where there are none."""
-        with nullcontext() if fast else np.errstate(all="ignore"):  # compiled code warns of nothing
-            DECIDE.functions(fast)["decide"](
-                rows, states, reach, fired, number, found, *self.numbers, *(work or self.work()))
+        arguments = rows, states, reach, fired, number, found, *self.numbers, *(work or self.work())
+        if fast:  # compiled code warns of nothing
+            DECIDE.functions(True)["decide"](*arguments)
+            return
+        with np.errstate(all="ignore"):
+            DECIDE.functions(False)["decide"](*arguments)
 
     def work(self) -> tuple[np.ndarray, ...]:
         """Arrays to work in. No two threads may share them, as they may share the test."""

@@ -109,7 +109,7 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
     while open_.size:
         runs.fast = ADVANCE.pays(STEP * (runs.counted - counted + open_.size), fast)
         counted = runs.counted
-        runs.measure(open_, out)
+        over = runs.measure(open_, out, t_max, budget)
         ready = open_ if after <= 0 else open_[out.t[open_] >= after]
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
         # rows that have just leapt: a test costs less than what they passed
@@ -117,8 +117,9 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
         for rows, request in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
             if rows.size:
                 _ask(out, rows, getattr(tests, request), runs.fast)
-        open_ = open_[out.fired[open_] < 0]
-        ended = runs.over(open_, t_max, budget) | _hopeless(out, open_, t_max, budget)
+        left = out.fired[open_] < 0
+        open_ = open_[left]
+        ended = over[left] | _hopeless(out, open_, t_max, budget)
         if ended.any():  # the last word is that of all tests that so much work is worth
             request = tests.last if runs.steps_done >= LAST else tests.all
             _ask(out, open_[ended & (out.t[open_] >= after)], request, runs.fast)
