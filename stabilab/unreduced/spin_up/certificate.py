@@ -257,16 +257,15 @@ class Certifier:
                         *energy[:5], *amplitude[:5], *amplitude[5:7], *energy[5:7])
 
     def decide(self, rows: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.ndarray, number: int,
-               found: np.ndarray, fast: bool = False, work: tuple[np.ndarray, ...] | None = None):
+               found: np.ndarray, fast: bool = False, work: tuple[np.ndarray, ...] | None = None) -> int:
         """The test for those of rows that no test has fired for, balls of radius reach (n,) about states (n,
         3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the
-        theorem. work: of `work`, new ones where there are none."""
+        theorem; returns for how many it does not hold. work: of `work`, new ones where there are none."""
         arguments = rows, states, reach, fired, number, found, *self.numbers, *(work or self.work())
         if fast:  # compiled code warns of nothing
-            DECIDE.functions(True)["decide"](*arguments)
-            return
+            return DECIDE.functions(True)["decide"](*arguments)
         with np.errstate(all="ignore"):
-            DECIDE.functions(False)["decide"](*arguments)
+            return DECIDE.functions(False)["decide"](*arguments)
 
     def work(self) -> tuple[np.ndarray, ...]:
         """Arrays to work in. No two threads may share them, as they may share the test."""

@@ -28,7 +28,7 @@ from ...physics.states import checked_states
 from ...reasons import Axis, Quantity, Reason, Sentence
 from ...validation import checked_scene
 from ..enclosure import proved
-from .certificate import ADVANCE, Tests, exactly, tests_of
+from .certificate import ADVANCE, Certifier, Tests, exactly, tests_of
 from .drift import Leaps, Runs
 from .form import island, recurs, seen
 from .result import SpinUp, Trap
@@ -92,7 +92,8 @@ class Chased:
     blur: np.ndarray
     reach: np.ndarray
     given_up: dict[int, Reason] = field(default_factory=dict)
-    work: dict[int, tuple[np.ndarray, ...]] = field(default_factory=dict)  # by test
+    # of each test that was asked: itself, its index, and what it works in
+    tools: dict[tuple, tuple[Certifier, int, tuple[np.ndarray, ...]]] = field(default_factory=dict)
 
 
 def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budget: int, after: float = 0.0,
@@ -114,16 +115,18 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
         # rows that have just leapt: a test costs less than what they passed
         far = np.intersect1d(ready, leapt) if leapt.size else leapt
-        for rows, request in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
-            if rows.size:
-                _ask(out, rows, getattr(tests, request), runs.fast)
+        _ask(out, np.setdiff1d(ready, far) if far.size else ready, getattr(tests, which), runs.fast)
+        if far.size:
+            _ask(out, far, tests.last, runs.fast)
         left = out.fired[open_] < 0
-        open_ = open_[left]
-        ended = over[left] | _hopeless(out, open_, t_max, budget)
-        if ended.any():  # the last word is that of all tests that so much work is worth
+        if not left.all():
+            open_, over = open_[left], over[left]
+        if budget > BUDGET:
+            over |= _hopeless(out, open_, t_max, budget)
+        if over.any():  # the last word is that of all tests that so much work is worth
             request = tests.last if runs.steps_done >= LAST else tests.all
-            _ask(out, open_[ended & (out.t[open_] >= after)], request, runs.fast)
-        open_ = open_[~ended]
+            _ask(out, open_[over & (out.t[open_] >= after)], request, runs.fast)
+            open_ = open_[~over]
         if open_.size:
             leapt = leaps.advance(open_, t_max, after)
             rows = np.setdiff1d(open_, leapt) if leapt.size else open_
@@ -141,7 +144,7 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
 def _hopeless(out: Chased, rows: np.ndarray, t_max: float, budget: int):
     """(m,) which of rows cannot come to a time that somebody names, for which many steps are allowed."""
     result = np.zeros(len(rows), bool)
-    for n, row in enumerate(rows.tolist() if budget > BUDGET else ()):
+    for n, row in enumerate(rows.tolist()):
         steps, t = int(out.steps[row]), float(out.t[row])
         left = steps * (t_max - t) / t if t > 0 else 0.0
         result[n] = steps >= SETTLED and too_far(steps, left, budget, SETTLED)
@@ -153,14 +156,15 @@ def _hopeless(out: Chased, rows: np.ndarray, t_max: float, budget: int):
 def _ask(out: Chased, rows: np.ndarray, which: Sequence[tuple[FixedCentre | MovingCentre, tuple[int, int]]],
          fast: bool):
     """Ask tests for rows, one after another for those that none has fired for; what fires is written down."""
-    for form, orders in which:
-        if not rows.size:
+    left = rows.size
+    for item in which:
+        if not left:
             break
-        test, number = out.tests.certifier(form, orders, fast), out.tests.asked.index((form, orders))
-        if number not in out.work:
-            out.work[number] = test.work()
-        test.decide(rows, out.states, out.reach, out.fired, number, out.constants, fast, out.work[number])
-        rows = rows[out.fired[rows] < 0]
+        if item not in out.tools:
+            test = out.tests.certifier(*item, fast)
+            out.tools[item] = test, out.tests.asked.index(item), test.work()
+        test, number, work = out.tools[item]
+        left = test.decide(rows, out.states, out.reach, out.fired, number, out.constants, fast, work)
 
 
 def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int | None = None,

@@ -309,11 +309,14 @@ def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.
            r_sums: np.ndarray, k_exponents: np.ndarray, k_sums: np.ndarray, rows: np.ndarray,
            powers: np.ndarray, pair: np.ndarray, retained: np.ndarray, row: np.ndarray, out: np.ndarray):
     """Ask for those of chosen rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
-    constants, where the inequality holds for the whole ball of radius reach (n,) about the state. basis:
-    (3, 3) axes in the body, rows; frame: the numbers of the place; the others: of `search`."""
+    constants, where the inequality holds for the whole ball of radius reach (n,) about the state. Returns
+    for how many it does not. basis: (3, 3) axes in the body, rows; frame: the numbers of the place; the
+    others: of `search`."""
+    left = 0
     for n in chosen:
         if fired[n] >= 0:
             continue
+        left += 1
         v1, v2, v3 = states[n, 0], states[n, 1], states[n, 2]
         w1 = basis[0, 0] * v1 + basis[0, 1] * v2 + basis[0, 2] * v3
         w2 = basis[1, 0] * v1 + basis[1, 1] * v2 + basis[1, 2] * v3
@@ -326,6 +329,7 @@ def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.
                             e_terms, e_degrees, b_exponents, b_sums, b_largest, b_terms, b_degrees,
                             r_exponents, r_sums, k_exponents, k_sums, rows, powers, pair, retained, row,
                             out):
-            fired[n] = number
+            fired[n], left = number, left - 1
             for i in range(6):
                 result[i, n] = out[i]
+    return left
