@@ -82,6 +82,10 @@ ADVANCE = Kernel(steps, "run", 4.0, inlined={"power_of_two", "logarithm", "two_t
                  variant=f"{steps.SIDE_BY_SIDE}_", options=BARE | {"LANES": steps.SIDE_BY_SIDE})
 
 
+# s of a processor: making a test by NumPy, about a fixed and about a moving centre
+TABLES = 3e-3, 1e-2
+
+
 # --- Equal moments
 def axis_of_symmetry(D: Sequence[Fraction]) -> int | None:
     """The index of the axis whose two others have equal moments; None for three different moments and for a
@@ -321,14 +325,15 @@ class Tests:
         return bool(self.often)
 
     def certifier(self, field: FixedCentre | MovingCentre, orders: tuple[int, int],
-                  fast: bool = False) -> Certifier:
-        """The test itself, made by compiled code or not. What others made does not alter an answer."""
+                  fast: bool | None = None) -> Certifier:
+        """The test itself, made by compiled code or not (None: as `ADVANCE` has it). What others made does
+        not alter an answer."""
         key = id(field), orders
         if key not in self.made:
             # before it is made: another thread that finds it made looks for its number
             if (field, orders) not in self.asked:
                 self.asked.append((field, orders))
-            self.made[key] = Certifier(field, orders, fast)
+            self.made[key] = Certifier(field, orders, ADVANCE.pays(TABLES[not field.sharp], fast))
         return self.made[key]
 
 

@@ -36,7 +36,7 @@ from . import elimination_kernel as kernel
 
 # {(j, k, a, b): (c, majorant of c)}
 Terms = dict[tuple[int, int, int, int], tuple[complex, float]]
-ELIMINATE = Kernel(kernel, "eliminate", 1.0, options={
+ELIMINATE = Kernel(kernel, "eliminate", 1.2, options={
     "allocating": False, "entries": {"eliminate", "tabulate"}} | kernel.LOOPS)
 
 
@@ -250,7 +250,7 @@ class Elimination:
                   np.zeros((2, left_columns), np.int64), np.zeros((left_degrees, left_columns)))
         a, b, divisor = self.over
         return Tables(*tables, functions["tabulate"](
-            exponents, values, marks, pairs, counts, -a, -b, 4 // parts, divisor, *tables))
+            exponents, values, marks, pairs, counts, -a, -b, 2 if parts == 1 else 0, divisor, *tables))
 
 
 @lru_cache(maxsize=256)  # the same for nearly all scenes

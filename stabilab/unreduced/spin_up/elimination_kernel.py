@@ -12,6 +12,7 @@ one for j and k (in their order), a and b, and values (3, n) as in the table."""
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -47,57 +48,67 @@ class Grid(NamedTuple):
 
 
 # --- By NumPy
-def take(rate: np.ndarray, number: int, lift: float, grid: Grid, exponents: np.ndarray, values: np.ndarray,
-         counts: np.ndarray, slots: np.ndarray, powers: np.ndarray):
-    """A level taken out of the table. Half of its real sum is there: a term with j < k is added to its
-    conjugate first, and one with j = k to its own. Up to the last level i lift/(j - k) times what oscillates
-    is added to the quantity; the index and the exponents of each of these terms come to slots and to the
-    first rows of powers. All else is left of the rate. exponents (2, 6, .), values (2, 3, .), counts: of what
-    is added and what is left (how many terms of each, how many degrees of each); returns the first of what is
-    added."""
-    size, start = grid.degrees * grid.conjugates * grid.columns, counts[0]
-    level = rate[:, number % grid.present * size:][:, :size]
-    here = np.flatnonzero(level[2])
-    row = here // grid.columns
-    apart = row // grid.conjugates - 2 * (row % grid.conjugates)
-    equal, below = here[apart == 0], here[apart < 0]
-    level[0, equal] *= 2.0
-    level[1, equal] = 0.0
-    level[2, equal] *= 2.0
-    above = below + apart[apart < 0] * grid.columns
+def take(rate: np.ndarray, base: int, number: int, lift: float, grid: Grid, exponents: np.ndarray,
+         values: np.ndarray, counts: np.ndarray, slots: np.ndarray, powers: np.ndarray):
+    """A level taken out of the table, which begins at base. Half of its real sum is there: a term with j < k
+    is added to its conjugate first, and one with j = k to its own. Up to the last level i lift/(j - k) times
+    what oscillates is added to the quantity; the index and the exponents of each of these terms come to slots
+    and to the first rows of powers. All else is left of the rate. exponents (2, 6, .), values (2, 3, .),
+    counts: of what is added and what is left (how many terms of each, how many degrees of each); returns the
+    first of what is added."""
+    (equal, below, above), known = positions(grid)
+    size, start, height = known.shape[1], int(counts[0]), grid.unit * (grid.lowest + number)
+    level = rate[:, base:base + size]
     level[0, above] += level[0, below]
     level[1, above] -= level[1, below]
     level[2, above] += level[2, below]
+    level[0, equal] *= 2.0
+    level[1, equal] = 0.0
+    level[2, equal] *= 2.0
     level[2, below] = 0.0
     here = np.flatnonzero(level[2])
-    row, terms, height = here // grid.columns, level[:, here], grid.unit * (grid.lowest + number)
+    terms, numbers = level[:, here], known[:, here]
     level[:] = 0.0
-    degree, k = row // grid.conjugates, row % grid.conjugates
-    apart, a, mark = degree - 2 * k, np.full(here.size, height), np.full(here.size, number)
+    apart = numbers[6]
     if grid.sheared:
-        a = 2 * (here % grid.columns + grid.first) - degree
-        mark += (a + grid.degrees - 2 * grid.first) * grid.levels
-    numbers = np.stack([degree, k, mark, (degree - k) * grid.conjugates + k, a, height - a])
-    chosen = np.flatnonzero(apart) if number <= grid.last else here[:0]
-    if chosen.size:
-        n = start + chosen.size
-        factor, part = lift / apart[chosen], numbers[:, chosen]
+        numbers[2] += number
+        numbers[5] = height - numbers[4]
+    else:
+        numbers[2], numbers[4] = number, height
+    left = np.arange(here.size)
+    if number <= grid.last:
+        chosen, left = np.flatnonzero(apart), np.flatnonzero(apart == 0)
+        n, part, (x, y, z) = start + chosen.size, numbers[:, chosen], terms[:, chosen]
+        factor = lift / part[6]
         part[4] -= grid.turn_a
         part[5] -= grid.turn_b
-        exponents[0, :, start:n], slots[:chosen.size] = part, here[chosen]
-        values[0, 0, start:n] = -terms[1, chosen] * factor
-        values[0, 1, start:n] = terms[0, chosen] * factor
-        values[0, 2, start:n] = terms[2, chosen] * np.abs(factor)
-        powers[0, :chosen.size], powers[1:4, :chosen.size] = part[0] - part[1], part[[1, 4, 5]]
-        counts[0], counts[2] = n, max(counts[2], 1 + part[0].max())
-    others = (apart == 0) | (number > grid.last)
+        exponents[0, :, start:n], slots[:chosen.size] = part[:6], here[chosen]
+        added = values[0, :, start:n]
+        added[0], added[1], added[2] = -y * factor, x * factor, z * np.abs(factor)
+        powers[:4, :chosen.size] = part[[7, 1, 4, 5]]
+        counts[0], counts[2] = n, max(counts[2], 1 + part[0].max(initial=-1))
     if number == grid.dropped:
-        others &= degree > 0
-    others = np.flatnonzero(others)
-    first, n = counts[1], counts[1] + others.size
-    exponents[1, :, first:n], values[1, :, first:n] = numbers[:, others], terms[:, others]
-    counts[1], counts[3] = n, max(counts[3], 1 + degree[others].max(initial=-1))
+        left = left[numbers[0, left] > 0]
+    if left.size:
+        first, n = counts[1], counts[1] + left.size
+        exponents[1, :, first:n], values[1, :, first:n] = numbers[:6, left], terms[:, left]
+        counts[1], counts[3] = n, max(counts[3], 1 + numbers[0, left].max())
     return start
+
+
+@lru_cache(maxsize=16)  # of all tests of a scene
+def positions(grid: Grid) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
+    """Of the terms of a level: (which have j = k; which have j < k, and their conjugates; (8, n) what lists
+    have of exponents, as far as it is the same in all levels, j - k, j)."""
+    here = np.arange(grid.degrees * grid.conjugates * grid.columns)
+    row, zero = here // grid.columns, np.zeros_like(here)
+    degree, k = row // grid.conjugates, row % grid.conjugates
+    apart = degree - 2 * k
+    below = np.flatnonzero((apart < 0) & (k <= degree))
+    a = 2 * (here % grid.columns + grid.first) - degree if grid.sheared else zero
+    mark = (a + grid.degrees - 2 * grid.first) * grid.levels if grid.sheared else zero
+    return ((np.flatnonzero(apart == 0), below, below + apart[below] * grid.columns),
+            np.stack([degree, k, mark, (degree - k) * grid.conjugates + k, a, zero, apart, degree - k]))
 
 
 def spread(table: np.ndarray, base: int, number: int, levels: int, size: int, n: int, slots: np.ndarray,
@@ -108,7 +119,8 @@ def spread(table: np.ndarray, base: int, number: int, levels: int, size: int, n:
     power = powers[moves[0], :n]
     factor, term = np.nonzero(power)  # those of one factor after those of another
     power = power[factor, term]
-    place = slots[term] + (base + (number + moves[1]) % levels * size + moves[2])[factor]
+    level = number + moves[1]
+    place = slots[term] + (base + np.where(level < levels, level, level - levels) * size + moves[2])[factor]
     real, imaginary = power * factors[0, factor], power * factors[1, factor]
     x, y, z = values[:, first:first + n][:, term]
     np.add.at(table[0], place, x * real - y * imaginary)
@@ -135,14 +147,14 @@ def number_all(chosen: np.ndarray, marks: np.ndarray):
 
 
 def fill(exponents: np.ndarray, values: np.ndarray, n: int, marks: np.ndarray, up_a: int, up_b: int,
-         over: int, divisor: float, columns: np.ndarray, sums: np.ndarray):
+         halved: int, divisor: float, columns: np.ndarray, sums: np.ndarray):
     """Bounds of the sizes of n terms and of their conjugates over a divisor, summed by degree and by
-    exponents (degrees, columns); to columns (2, columns) the exponents plus up_a and up_b, over a whole
-    number. Returns the greatest sum of sizes of both."""
+    exponents (degrees, columns); to columns (2, columns) the exponents plus up_a and up_b, halved so many
+    times. Returns the greatest sum of sizes of both."""
     degree, k, mark, _, a, b = exponents[:, :n]
     x, y, z = values[:, :n]
     column = marks[mark] - 1
-    columns[0, column], columns[1, column] = (a + up_a) // over, (b + up_b) // over
+    columns[0, column], columns[1, column] = (a + up_a) >> halved, (b + up_b) >> halved
     bound = (np.sqrt(x * x + y * y) + TINY + ROUNDING * z) / divisor
     np.add.at(sums, (degree, column), np.where(degree == 2 * k, bound, 2.0 * bound))
     return int(np.abs(columns).sum(axis=0).max())
@@ -160,13 +172,12 @@ def spell(exponents: np.ndarray, values: np.ndarray, n: int, marks: np.ndarray, 
 
 
 # --- The same as loops
-def take_in_turn(rate: np.ndarray, number: int, lift: float, grid: Grid, exponents: np.ndarray,
+def take_in_turn(rate: np.ndarray, base: int, number: int, lift: float, grid: Grid, exponents: np.ndarray,
                  values: np.ndarray, counts: np.ndarray, slots: np.ndarray, powers: np.ndarray):
     """As `take`."""
-    base = number % grid.present * grid.degrees * grid.conjugates * grid.columns
     start, height = counts[0], grid.unit * (grid.lowest + number)
     for degree in range(grid.degrees):
-        for k in range(min(degree // 2 + 1, grid.conjugates)):
+        for k in range(min((degree >> 1) + 1, grid.conjugates)):
             row, apart = (degree * grid.conjugates + k) * grid.columns, degree - 2 * k
             mirrored = apart * grid.columns if degree - k < grid.conjugates else 0
             for column in range(grid.columns):
@@ -177,9 +188,8 @@ def take_in_turn(rate: np.ndarray, number: int, lift: float, grid: Grid, exponen
                     x, y, z = 2.0 * x, 0.0, 2.0 * z
                 elif mirrored:
                     other = slot + mirrored
-                    if rate[2, other] != 0:
-                        x, y, z = x + rate[0, other], y - rate[1, other], z + rate[2, other]
-                        rate[0, other] = rate[1, other] = rate[2, other] = 0.0
+                    x, y, z = x + rate[0, other], y - rate[1, other], z + rate[2, other]
+                    rate[0, other] = rate[1, other] = rate[2, other] = 0.0
                 if z == 0:
                     continue
                 a, mark, which = height, number, 1
@@ -208,7 +218,10 @@ def spread_in_turn(table: np.ndarray, base: int, number: int, levels: int, size:
                    factors: np.ndarray):
     """As `spread`."""
     for factor in range(moves.shape[1]):
-        kind, shift = moves[0, factor], base + (number + moves[1, factor]) % levels * size + moves[2, factor]
+        kind, level = moves[0, factor], number + moves[1, factor]
+        if level >= levels:
+            level -= levels
+        shift = base + level * size + moves[2, factor]
         x, y, z = factors[0, factor], factors[1, factor], factors[2, factor]
         for term in range(n):
             power = powers[kind, term]
@@ -244,18 +257,16 @@ def number_in_turn(chosen: np.ndarray, marks: np.ndarray):
 
 
 def fill_in_turn(exponents: np.ndarray, values: np.ndarray, n: int, marks: np.ndarray, up_a: int, up_b: int,
-                 over: int, divisor: float, columns: np.ndarray, sums: np.ndarray):
+                 halved: int, divisor: float, columns: np.ndarray, sums: np.ndarray):
     """As `fill`."""
+    reach = 0
     for term in range(n):
         degree, column = exponents[0, term], marks[exponents[2, term]] - 1
-        columns[0, column] = (exponents[4, term] + up_a) // over
-        columns[1, column] = (exponents[5, term] + up_b) // over
+        a, b = (exponents[4, term] + up_a) >> halved, (exponents[5, term] + up_b) >> halved
+        columns[0, column], columns[1, column], reach = a, b, max(reach, abs(a) + abs(b))
         x, y = values[0, term], values[1, term]
         bound = (math.sqrt(x * x + y * y) + TINY + ROUNDING * values[2, term]) / divisor
         sums[degree, column] += bound if degree == 2 * exponents[1, term] else 2.0 * bound
-    reach = 0
-    for column in range(columns.shape[1]):
-        reach = max(reach, abs(columns[0, column]) + abs(columns[1, column]))
     return reach
 
 
@@ -287,28 +298,35 @@ def eliminate(table: np.ndarray, lift: float, grid: Grid, moves: np.ndarray, fac
     what is added (in pairs). slots, powers, work: to work in."""
     size = grid.degrees * grid.conjugates * grid.columns
     behind = grid.present * size
+    turn = -1  # of the level in the table, whose levels are used again
     for number in range(grid.levels):
-        start = take(table, number, lift, grid, exponents, values, counts, slots, powers)
-        base, levels = (behind, grid.between) if grid.between else (0, grid.present)
-        spread(table, base, 0 if grid.between else number, levels, size, counts[0] - start, slots, values[0],
-               start, powers, moves, factors)
-        for level in range(grid.between):
-            n = collect(table, behind + level * size, size, slots, work)
-            spread(table, 0, number + grid.lifted + level, grid.present, size, n, slots, work, 0, powers,
-                   carried, carried_factors)
+        turn = turn + 1 if turn + 1 < grid.present else 0
+        start = take(table, turn * size, number, lift, grid, exponents, values, counts, slots, powers)
+        n, source, by, numbers = counts[0] - start, values[0], moves, factors
+        base, levels, first = (behind, grid.between, 0) if grid.between else (0, grid.present, turn)
+        for level in range(grid.between + 1):  # the first product, then from each of its levels
+            if level:
+                n = collect(table, behind + (level - 1) * size, size, slots, work)
+                source, by, numbers, start = work, carried, carried_factors, 0
+                base, levels, first = 0, grid.present, turn + grid.lifted + level - 1
+            spread(table, base, first, levels, size, n, slots, source, start, powers, by, numbers)
     for which in range(2):
         counts[4 + which] = number_all(exponents[which, 2, :counts[which]], marks[which])
     counts[6] = number_all(exponents[0, 3, :counts[0]], pairs)
 
 
 def tabulate(exponents: np.ndarray, values: np.ndarray, marks: np.ndarray, pairs: np.ndarray,
-             counts: np.ndarray, up_a: int, up_b: int, over: int, divisor: float, columns: np.ndarray,
+             counts: np.ndarray, up_a: int, up_b: int, halved: int, divisor: float, columns: np.ndarray,
              sums: np.ndarray, largest: np.ndarray, terms: np.ndarray, degrees: np.ndarray,
              left_columns: np.ndarray, left_sums: np.ndarray):
     """The tables of both lists (`elimination.Tables`), all 0 at first. What is left is divided by a number,
-    and has up_a and up_b more in its exponents, all of which are divided by a whole number. Returns the
-    greatest sum of sizes of two of these."""
+    and has up_a and up_b more in its exponents, all of which are halved so many times. Returns the greatest
+    sum of sizes of two of these."""
     spell(exponents[0], values[0], counts[0], marks[0], pairs, largest, terms, degrees)
-    return max(fill(exponents[0], values[0], counts[0], marks[0], 0, 0, over, 1.0, columns, sums),
-               fill(exponents[1], values[1], counts[1], marks[1], up_a, up_b, over, divisor, left_columns,
-                    left_sums))
+    reach, a, b, by, into, table = 0, 0, 0, 1.0, columns, sums
+    for which in range(2):
+        if which:
+            a, b, by, into, table = up_a, up_b, divisor, left_columns, left_sums
+        reach = max(reach, fill(exponents[which], values[which], counts[which], marks[which], a, b, halved,
+                                by, into, table))
+    return reach

@@ -115,9 +115,9 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
         # rows that have just leapt: a test costs less than what they passed
         far = np.intersect1d(ready, leapt) if leapt.size else leapt
-        _ask(out, np.setdiff1d(ready, far) if far.size else ready, getattr(tests, which), runs.fast)
+        _ask(out, np.setdiff1d(ready, far) if far.size else ready, getattr(tests, which), runs.fast, fast)
         if far.size:
-            _ask(out, far, tests.last, runs.fast)
+            _ask(out, far, tests.last, runs.fast, fast)
         left = out.fired[open_] < 0
         if not left.all():
             open_, over = open_[left], over[left]
@@ -125,7 +125,7 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
             over |= _hopeless(out, open_, t_max, budget)
         if over.any():  # the last word is that of all tests that so much work is worth
             request = tests.last if runs.steps_done >= LAST else tests.all
-            _ask(out, open_[over & (out.t[open_] >= after)], request, runs.fast)
+            _ask(out, open_[over & (out.t[open_] >= after)], request, runs.fast, fast)
             open_ = open_[~over]
         if open_.size:
             leapt = leaps.advance(open_, t_max, after)
@@ -154,14 +154,15 @@ def _hopeless(out: Chased, rows: np.ndarray, t_max: float, budget: int):
 
 
 def _ask(out: Chased, rows: np.ndarray, which: Sequence[tuple[FixedCentre | MovingCentre, tuple[int, int]]],
-         fast: bool):
-    """Ask tests for rows, one after another for those that none has fired for; what fires is written down."""
+         fast: bool, choice: bool | None):
+    """Ask tests for rows, one after another for those that none has fired for; what fires is written down.
+    fast, choice: whether compiled code serves for that, and what the user has chosen."""
     left = rows.size
     for item in which:
         if not left:
             break
         if item not in out.tools:
-            test = out.tests.certifier(*item, fast)
+            test = out.tests.certifier(*item, choice)
             out.tools[item] = test, out.tests.asked.index(item), test.work()
         test, number, work = out.tools[item]
         left = test.decide(rows, out.states, out.reach, out.fired, number, out.constants, fast, work)
