@@ -51,7 +51,7 @@ from functools import cached_property
 import numpy as np
 
 from ...numbers.ratio import ratios
-from .elimination import Algebra, Elimination, Terms, conjugate, product, terms_of, times, total
+from .elimination import Algebra, Elimination, Terms, conjugate, half, product, terms_of, times, total
 from .form import NormalForm, over_root
 
 
@@ -174,16 +174,17 @@ class MovingCentre:
 
     @cached_property
     def amplitude(self) -> Elimination:
-        """G0/M1 |eta|^2, corrected. D1 M1 times the rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each
-        bracket's products of oscillating factors written out, without the mean part."""
+        """G0/M1 |eta|^2, corrected. D1 M1 times the rate, of which half is worked out, is (D1 x' - G0) G0'
+        |eta|^2 + 2 G0 [...], each bracket's products of oscillating factors written out, without the mean
+        part."""
         G0, swing, pull, k, r, f = map(terms_of, (self.G0, self.swing, self.pull, self.k, self.r, self.f))
         k, f = ({key: (c.conjugate(), m) for key, (c, m) in part.items()} for part in (k, f))
         # g Im eta^2 Re eta^2 = (g/2) Im eta^4
         twist = terms_of({(4, 0, 0, 0): -0.25j * self.g, (0, 4, 0, 0): 0.25j * self.g})
         inner = [product(total(G0, pull), _real(r, 2)), product(twist, r),
                  product(total(G0, swing), _real(f, 1)), times(_real(product(k, f), 2), 0.5)]
-        around = times(product(total(swing, pull), self.algebra.slope(G0)), 1, (1, 1, 0, 0))
-        rate = total(product(times(G0, 2), total(*inner)), around)
+        around = times(product(half(total(swing, pull)), self.algebra.slope(G0)), 1, (1, 1, 0, 0))
+        rate = total(product(times(G0, 2), half(total(*inner))), around)
         return Elimination(self.algebra, times(rate, 1 / (self.M1 * self.D1)))
 
     def transverse(self, A, z):
@@ -201,8 +202,8 @@ class MovingCentre:
 
 def _real(terms: Terms, n: int) -> Terms:
     """Re(terms eta^n) of terms without eta."""
-    half = times(terms, 0.5, (n, 0, 0, 0))
-    return total(half, conjugate(half))
+    part = times(terms, 0.5, (n, 0, 0, 0))
+    return total(part, conjugate(part))
 
 
 def moving_centre(form, scene) -> MovingCentre | None:

@@ -256,7 +256,7 @@ class Certifier:
         drive = [(m * parts // 4, n * parts // 4) for _, _, m, n in field.G0]
         form = kernel.Form(field.D1, field.M1, field.a2, field.a3, *field.offsets, parts, a * parts // 4,
                            b * parts // 4, size, reach)
-        self.numbers = (field.basis, np.array(field.frame, float), form,
+        self.numbers = (field.basis, np.array(field.frame, float), np.array(form, float),
                         np.ascontiguousarray(np.array(drive).T), np.array([*field.G0.values()], float),
                         *energy[:5], *amplitude[:5], *amplitude[5:7], *energy[5:7])
 

@@ -78,6 +78,11 @@ def conjugate(terms: Terms) -> Terms:
     return {(k, j, a, b): (c.conjugate(), m) for (j, k, a, b), (c, m) in terms.items()}
 
 
+def half(terms: Terms) -> Terms:
+    """Of a real sum, whose terms come with their conjugates, those with j >= k."""
+    return {key: value for key, value in terms.items() if key[0] >= key[1]}
+
+
 @dataclass(frozen=True)
 class Algebra:
     """What the time derivative of a form is made of.
@@ -185,16 +190,16 @@ class Tables(NamedTuple):
 class Elimination:
     """What oscillates taken out of a rate.
 
-    rate: real, its terms come with their conjugates; added: such terms that were added before, of levels that
-    the rate does not have; drive: a term that is left out of what is left; over: (a, b, size) of what is left
-    is divided by size p^(-a/4) q^(-b/4)."""
+    rate: real, its terms come with their conjugates, unless it is half; added: such terms that were added
+    before, of levels that the rate does not have; drive: a term that is left out of what is left; over: (a,
+    b, size) of what is left is divided by size p^(-a/4) q^(-b/4)."""
 
     def __init__(self, algebra: Algebra, rate: Terms, added: Terms | None = None,
                  drive: tuple[int, int, int, int] | None = None, over: tuple[int, int, float] = (0, 0, 1.0)):
         self.algebra, self.over = algebra, over
         # j = k stands for itself and its conjugate
         self.rate = [(key, c * 0.5, m * 0.5) if key[0] == key[1] else (key, c, m)
-                     for key, (c, m) in rate.items() if key[0] >= key[1]]
+                     for key, (c, m) in half(rate).items()]
         a, b = algebra.turn  # where the rate would be of which it is taken
         self.added = [((j, k, r + a, s + b), c, m) for (j, k, r, s), (c, m) in (added or {}).items() if j > k]
         self.drive = drive and algebra.level(*drive[2:])
@@ -240,9 +245,9 @@ class Elimination:
         marks = np.zeros((2, pairs_of_exponents), np.int64)
         pairs = np.zeros(grid.degrees * grid.conjugates, np.int64)
         functions["eliminate"](
-            table, algebra.lift, grid, *one.placed(grid, grid.lifted if grid.between else 0),
-            *two.placed(grid, 0), exponents, values, marks, pairs, counts, np.empty(size, np.int64),
-            np.ones((5, size)), np.empty((3, size)))
+            table, algebra.lift, np.array(grid, np.int64),
+            *one.placed(grid, grid.lifted if grid.between else 0), *two.placed(grid, 0), exponents, values,
+            marks, pairs, counts, np.empty(size, np.int64), np.ones((5, size)), np.empty((3, size)))
         # of no terms one that is 0
         _, _, degrees, left_degrees, columns, left_columns, terms = np.maximum(counts, 1).tolist()
         tables = (np.zeros((2, columns), np.int64), np.zeros((degrees, columns)),

@@ -286,7 +286,7 @@ LOOPS = {"take": take_in_turn, "spread": spread_in_turn, "collect": collect_in_t
 
 
 # --- From a rate to what is added and what is left
-def eliminate(table: np.ndarray, lift: float, grid: Grid, moves: np.ndarray, factors: np.ndarray,
+def eliminate(table: np.ndarray, lift: float, fields: np.ndarray, moves: np.ndarray, factors: np.ndarray,
               carried: np.ndarray, carried_factors: np.ndarray, exponents: np.ndarray, values: np.ndarray,
               marks: np.ndarray, pairs: np.ndarray, counts: np.ndarray, slots: np.ndarray, powers: np.ndarray,
               work: np.ndarray):
@@ -295,7 +295,10 @@ def eliminate(table: np.ndarray, lift: float, grid: Grid, moves: np.ndarray, fac
     factors of `spread`) comes to the rate, or to the levels between and from there, times others (carried),
     to the rate. counts (7,): of the terms and of the degrees of both lists, which have those of what was
     added before; of their different pairs a and b (numbered in marks (2, .)), and of the pairs j and k of
-    what is added (in pairs). slots, powers, work: to work in."""
+    what is added (in pairs). fields (15,): of the grid, for a tuple takes longer to hand over than all
+    arrays. slots, powers, work: to work in."""
+    grid = Grid(fields[0], fields[1], fields[2], fields[3], fields[4], fields[5], fields[6], fields[7],
+                fields[8], fields[9], fields[10], fields[11], fields[12], fields[13], fields[14])
     size = grid.degrees * grid.conjugates * grid.columns
     behind = grid.present * size
     turn = -1  # of the level in the table, whose levels are used again
