@@ -99,6 +99,8 @@ class Kernel:
 
         Raises InputError for fast=True without numba.
         """
+        if fast is None and self.ready:
+            return True
         if fast is not None or not installed():
             if fast and not installed():
                 raise InputError(
@@ -126,6 +128,8 @@ class Kernel:
 
     def functions(self, fast: bool) -> dict[str, Any]:
         """The module's names: compiled, or as they are written."""
+        if fast and self.ready:
+            return self._functions
         with self._lock:
             if fast:
                 while not self.ready:

@@ -28,6 +28,7 @@ from ...unreduced import enclosure
 from ...unreduced.spin_up import certificate
 from ...unreduced.spin_up.certificate import tests_of
 from ...unreduced.spin_up.drift import Runs
+from ...unreduced.spin_up.elimination import ELIMINATE
 from ...unreduced.spin_up.follow import spin_up_many
 
 STATES = np.random.default_rng(6).normal(size=(40, 3))
@@ -56,7 +57,7 @@ def spin_ups() -> None:
         Runs(natural(scene)[0], STATES, fast=True).carried(STATES, np.ones(len(STATES)), 10)
         tests = tests_of(scene)
         for field in tests.fixed + tests.moving:
-            tests.certifier(field, (2, 4)).constants(STATES[0], 1e-9, fast=True)
+            tests.certifier(field, (2, 4), fast=True).constants(STATES[0], 1e-9, fast=True)
 
 
 def enclosures() -> None:
@@ -78,7 +79,7 @@ TASKS: tuple[Callable[[], None], ...] = rows, off_the_axes
 def kernels() -> tuple[Kernel, ...]:
     """All that is compiled."""
     return (*KERNELS.values(), BARRIERS, MARGINS, certificate.DECIDE, certificate.ADVANCE,
-            enclosure.ADVANCE)
+            ELIMINATE, enclosure.ADVANCE)
 
 
 def compile_all() -> str:

@@ -46,22 +46,12 @@ axis 1): d2 = 0, q = s l1 is constant, l2 = 0 and n3 = 0; every term of the rate
 must fall faster than 1/x, and its integral is infinite where one does not (`kernel.tail`)."""
 from __future__ import annotations
 
-from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
-from .elimination import (
-    Algebra,
-    Corrected,
-    Elimination,
-    Shape,
-    Terms,
-    gathered,
-    packed,
-    product,
-    terms_of,
-)
+from ...numbers.ratio import ratios
+from .elimination import Algebra, Elimination, Terms, conjugate, half, product, terms_of, times, total
 from .form import NormalForm, over_root
 
 
@@ -81,34 +71,29 @@ class FixedCentre:
         self.G0 = {(0, 0, 0, 0): f.M1, (0, 0, 4, 0): f.drag}
         self.swing = _present({(2, 0, 0, 0): -0.5j * f.gam, (0, 2, 0, 0): 0.5j * f.gam,
                                (1, 0, 0, 0): 0.5 * f.kap.conjugate(), (0, 1, 0, 0): 0.5 * f.kap})
-        x_rate = terms_of({(0, 0, 0, 0): f.M1} | self.swing).times(1 / f.D1)
+        x_rate = times(terms_of({(0, 0, 0, 0): f.M1} | self.swing), 1 / f.D1)
         drift = terms_of(_present({(0, 1, 0, 0): 1j * f.h, (0, 0, 0, 0): f.mu}))
-        self.algebra = Algebra(1j / f.om, (-4, 0), (-0.25, 0.0), x_rate, terms_of({}), drift)
+        self.algebra = Algebra(1 / f.om, (-4, 0), (-0.25, 0.0), x_rate, {}, drift, 4, False)
 
-    def energy(self, order: int) -> Corrected:
+    @cached_property
+    def energy(self) -> Elimination:
         """D1 X^2/2, corrected; the drive M1 X + m* is left out of its rate."""
-        result = self._energy.to(order)
-        return Corrected(result.added, result.rate.part(_varies))
+        return Elimination(self.algebra, times(terms_of(self.swing), 1, (0, 0, -4, 0)), drive=(0, 0, 0, 0),
+                           over=(-4, 0, self.turn_size))
 
     @cached_property
-    def _energy(self) -> Elimination:
-        return Elimination(self.algebra, terms_of(self.swing).moved(packed(0, 0, -4, 0)))
-
-    def amplitude(self, order: int) -> Corrected:
+    def amplitude(self) -> Elimination:
         """(1 + m*/(M1 X)) |zeta|^2, corrected from |zeta|^2 + R/(om X) on."""
-        first, elimination = self._amplitude
-        result = elimination.to(order)
-        return Corrected(gathered(first, result.added), result.rate)
-
-    @cached_property
-    def _amplitude(self) -> tuple[Terms, Elimination]:
-        f, algebra = self.form, self.algebra
+        f, (x_rate, drift) = self.form, (self.algebra.x_rate, self.algebra.drift)
         first = terms_of(_present({(2, 0, 4, 0): 0.5 * f.h / f.om, (0, 2, 4, 0): 0.5 * f.h / f.om,
                                    (1, 0, 4, 0): 1j * f.mu.conjugate() / f.om,
                                    (0, 1, 4, 0): -1j * f.mu / f.om}))
-        weight = terms_of(_present({(1, 1, 4, 0): f.drag / f.M1}))
-        rate = product(first.moved(packed(0, 0, 4, 0)).times(-1), algebra.x_rate)
-        return first, Elimination(algebra, gathered(rate, *algebra.rest_of_rate(weight)))
+        weight = f.drag / f.M1
+        rate = [times(product(first, x_rate), -1, (0, 0, 4, 0))]
+        if weight:
+            turned = times(drift, weight, (0, 1, 4, 0))
+            rate += [turned, conjugate(turned), times(x_rate, -weight, (1, 1, 8, 0))]
+        return Elimination(self.algebra, total(*rate), first)
 
     def transverse(self, A: float, z: float):
         """((low, high), (low, high)) of omega2 and omega3 of the form while |zeta| <= A."""
@@ -127,8 +112,9 @@ class MovingCentre:
     name, sharp, parts = "moving centre", False, 4
 
     def __init__(self, D, wheel, torque, basis, s, axis=None, sense=1):
-        """D, wheel, torque: Fractions in the frame of the form, M1 > 0. basis: its three axes in principal
-        axes of the body, rows. axis, sense: of the body where the form's axis 1 is one of its axes."""
+        """D, wheel, torque: exact numbers in the frame of the form, M1 > 0. basis: its three axes in
+        principal axes of the body, rows. axis, sense: of the body where the form's axis 1 is one of its
+        axes."""
         (D1, D2, D3), (l1, l2, l3), (M1, M2, M3) = D, wheel, torque
         d2, d3 = D1 - D2, D1 - D3
         self.basis, self.s, self.axis, self.sense = np.array(basis, float), s, axis, sense
@@ -154,13 +140,14 @@ class MovingCentre:
         self.f = self._folded({(0, 0, 1, 7): -over_root(d2 * M3 + l1 * l2, 1 / D2),
                                (0, 0, 7, 1): 1j * s * over_root(d3 * M2 - l1 * l3, 1 / D3)})
         self.g = g
-        rate = gathered(*map(terms_of, (self.G0, self.swing, self.pull))).times(1 / self.D1)
+        rate = times(total(*map(terms_of, (self.G0, self.swing, self.pull))), 1 / self.D1)
         carried = terms_of({(0, 1, a, b): c for (_, _, a, b), c in self.r.items()} | self.f)
         om = 1 / (self.roots[0] * self.roots[1])
         # sqrt(p q): a constant q is part of the number
         (((_, _, *turn), self.turn_size),) = self._folded({(0, 0, -2, -2): 1.0}).items()
-        self.algebra = Algebra(1j / (om * self.turn_size), tuple(turn), (-self.a3 / 4, -self.a2 / 4),
-                               rate, carried, terms_of({}), (1, 1 if self.a2 else 0))
+        # a constant q counts nothing in the level, which then goes in quarters
+        self.algebra = Algebra(1 / (om * self.turn_size), tuple(turn), (-self.a3 / 4, -self.a2 / 4), rate,
+                               carried, {}, 4 if self.a2 else 1, bool(self.a2))
 
     @property
     def least_fall(self) -> float | None:
@@ -178,36 +165,27 @@ class MovingCentre:
                 out[j, k, a, 0] = out.get((j, k, a, 0), 0) + c * self.c ** (-b / 4)
         return out
 
-    def energy(self, order: int) -> Corrected:
+    @cached_property
+    def energy(self) -> Elimination:
         """D1 int sqrt(p q) dx, corrected; the drive sqrt(p q) G0 is left out of its rate."""
-        return self._energy.to(order)
-
-    @cached_property
-    def _energy(self) -> Elimination:
         a, b = self.algebra.turn
-        start = {(j, k, m + a, n + b): c * self.turn_size for (j, k, m, n),
-                 c in (self.swing | self.pull).items()}
-        return Elimination(self.algebra, terms_of(start))
-
-    def amplitude(self, order: int) -> Corrected:
-        """G0/M1 |eta|^2, corrected."""
-        return self._amplitude.to(order)
+        start = times(terms_of(self.swing | self.pull), self.turn_size, (0, 0, a, b))
+        return Elimination(self.algebra, start, over=(a, b, self.turn_size))
 
     @cached_property
-    def _amplitude(self) -> Elimination:
-        """D1 M1 times the rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each bracket's products of
-        oscillating factors written out, without the mean part."""
+    def amplitude(self) -> Elimination:
+        """G0/M1 |eta|^2, corrected. D1 M1 times the rate, of which half is worked out, is (D1 x' - G0) G0'
+        |eta|^2 + 2 G0 [...], each bracket's products of oscillating factors written out, without the mean
+        part."""
         G0, swing, pull, k, r, f = map(terms_of, (self.G0, self.swing, self.pull, self.k, self.r, self.f))
-        k, f = (Terms(part.shape, part.c.conjugate(), part.m) for part in (k, f))
+        k, f = ({key: (c.conjugate(), m) for key, (c, m) in part.items()} for part in (k, f))
         # g Im eta^2 Re eta^2 = (g/2) Im eta^4
         twist = terms_of({(4, 0, 0, 0): -0.25j * self.g, (0, 4, 0, 0): 0.25j * self.g})
-        inner = [product(G0, _real(r, 2)), product(twist, r), product(pull, _real(r, 2)),
-                 product(G0, _real(f, 1)),
-                 product(swing, _real(f, 1)), _real(product(k, f), 2).times(0.5)]
-        slope = gathered(*self.algebra.slope(G0))
-        around = product(product(gathered(swing, pull), slope), terms_of({(1, 1, 0, 0): 1.0}))
-        rate = gathered(product(G0.times(2.0), gathered(*inner)), around).times(1 / (self.M1 * self.D1))
-        return Elimination(self.algebra, rate)
+        inner = [product(total(G0, pull), _real(r, 2)), product(twist, r),
+                 product(total(G0, swing), _real(f, 1)), times(_real(product(k, f), 2), 0.5)]
+        around = times(product(half(total(swing, pull)), self.algebra.slope(G0)), 1, (1, 1, 0, 0))
+        rate = total(product(times(G0, 2), half(total(*inner))), around)
+        return Elimination(self.algebra, times(rate, 1 / (self.M1 * self.D1)))
 
     def transverse(self, A, z):
         """((low, high), (low, high)) of omega2 and omega3 of the form for x >= z, |eta| <= A: w* and rho are
@@ -224,12 +202,8 @@ class MovingCentre:
 
 def _real(terms: Terms, n: int) -> Terms:
     """Re(terms eta^n) of terms without eta."""
-    half = terms.times(0.5)
-    return gathered(half.moved(packed(n, 0, 0, 0)), half.conjugate().moved(packed(0, n, 0, 0)))
-
-
-def _varies(shape: Shape) -> np.ndarray:
-    return shape.keys != packed(0, 0, 0, 0)
+    part = times(terms, 0.5, (n, 0, 0, 0))
+    return total(part, conjugate(part))
 
 
 def moving_centre(form, scene) -> MovingCentre | None:
@@ -237,9 +211,11 @@ def moving_centre(form, scene) -> MovingCentre | None:
     ones."""
     if scene.variables == "scaled":
         return None
-    vectors = [tuple(Fraction(t) * v[n] for t, n in zip(form.turn, form.order))
-               for v in (scene.vector("gyrostat"), scene.vector("constant_torque"))]
-    D = tuple(scene.body.exact[n] for n in form.order)
+    vectors = [tuple(t * v[n] for t, n in zip(form.turn, form.order))
+               for v in map(ratios, (scene.vector("gyrostat"), scene.vector("constant_torque")))]
+    exact = scene.body.exact
+    D = tuple(ratios(exact)[n] for n in form.order)
     basis = [[t * (n == m) for m in range(3)] for t, n in zip(form.turn, form.order)]
-    return MovingCentre(D, *vectors, basis, 1 if D[0] > D[1] else -1,  # type: ignore[call-arg]
+    s = 1 if exact[form.axis] > exact[form.order[1]] else -1
+    return MovingCentre(D, *vectors, basis, s,  # type: ignore[call-arg]
                         form.axis, form.sense)

@@ -52,7 +52,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -67,7 +66,7 @@ from ...orbit.result import Fate
 from ...reasons import Reasoned, Sentence
 from . import kernel, steps
 from .centres import FixedCentre, MovingCentre, moving_centre
-from .elimination import Shape, Terms, sizes, worked_out
+from .elimination import ELIMINATE
 from .form import forms_of
 from .result import WIDER, SpinUp, SteadyTrap
 
@@ -78,10 +77,14 @@ if TYPE_CHECKING:
 # --- The kernels, compiled or as written
 # of tests, of steps
 BARE: dict[str, object] = {"allocating": False,
-                           "entries": {"begin", "run", "end", "measure", "over", "decide"}}
+                           "entries": {"advance", "run", "measure", "decide"}}
 DECIDE = Kernel(kernel, "decide", 3.9, options=BARE)
 ADVANCE = Kernel(steps, "run", 6.5, inlined={"power_of_two", "logarithm", "two_to", "ended"},
                  variant=f"{steps.SIDE_BY_SIDE}_", options=BARE | {"LANES": steps.SIDE_BY_SIDE})
+
+
+# s of a processor: making a test by NumPy, about a fixed and about a moving centre
+TABLES = 3e-3, 1e-2
 
 
 # --- Equal moments
@@ -239,35 +242,41 @@ class Certifier:
     """The inequality of the theorem in one field (`centres`) at one pair of orders, by the functions of the
     kernel over tables that are made once."""
 
-    def __init__(self, field: FixedCentre | MovingCentre, orders: tuple[int, int]):
+    def __init__(self, field: FixedCentre | MovingCentre, orders: tuple[int, int], fast: bool = False):
+        """fast: tables by compiled code."""
         with np.errstate(all="ignore"):  # what overflows is not finite, and certifies nothing
-            energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
-            (a, b), size, parts = field.algebra.turn, field.turn_size, field.parts
-            quantities = _quantity(energy.added, parts), _quantity(amplitude.added, parts)
-            sums = (_sums(amplitude.rate, sizes(amplitude.rate), parts),
-                    _sums(energy.rate, sizes(energy.rate) / size, parts, (-a, -b)))
-        exponents = [item[0] for item in quantities + sums]
-        reach = 5 + max(int(np.abs(exponent).sum(axis=0).max()) for exponent in exponents)
-        self.degrees = 1 + max(int(degrees.max()) for *_, degrees in quantities)
-        self.columns = max(exponent.shape[1] for exponent in exponents)
-        self.terms = max(degrees.shape[1] for *_, degrees in quantities)
+            energy = field.energy.to(orders[0], field.parts, fast)
+            amplitude = field.amplitude.to(orders[1], field.parts, fast)
+        (a, b), size, parts = field.algebra.turn, field.turn_size, field.parts
+        reach = 5 + max(energy.reach, amplitude.reach)
+        # of arrays to work in: powers of zeta, pairs of its exponents, columns
+        self.powers = max(len(energy.sums), len(amplitude.sums))
+        self.terms = max(energy.degrees.shape[1], amplitude.degrees.shape[1])
+        self.columns = max(item.shape[1] for tables in (energy, amplitude)
+                           for item in (tables.exponents, tables.left_exponents))
         drive = [(m * parts // 4, n * parts // 4) for _, _, m, n in field.G0]
         form = kernel.Form(field.D1, field.M1, field.a2, field.a3, *field.offsets, parts, a * parts // 4,
                            b * parts // 4, size, reach)
-        self.numbers = (field.basis, np.array(field.frame, float), form,
+        self.numbers = (field.basis, np.array(field.frame, float), np.array(form, float),
                         np.ascontiguousarray(np.array(drive).T), np.array([*field.G0.values()], float),
-                        *quantities[0], *quantities[1], *sums[0], *sums[1])
+                        *energy[:5], *amplitude[:5], *amplitude[5:7], *energy[5:7])
 
     def decide(self, rows: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.ndarray, number: int,
-               found: np.ndarray, fast: bool = False):
+               found: np.ndarray, fast: bool = False, work: tuple[np.ndarray, ...] | None = None) -> int:
         """The test for those of rows that no test has fired for, balls of radius reach (n,) about states (n,
         3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the
-        theorem. The arrays to work in are new ones for each question, for threads may share a test."""
-        work = (np.ones((4, 2 * kernel.MIDDLE + 1)), np.zeros(self.degrees, complex),
-                np.zeros((2, self.terms)), *np.zeros((2, self.columns)), np.zeros(6))
-        with nullcontext() if fast else np.errstate(all="ignore"):  # compiled code warns of nothing
-            DECIDE.functions(fast)["decide"](
-                rows, states, reach, fired, number, found, *self.numbers, *work)
+        theorem; returns for how many it does not hold. work: of `work`, new ones where there are none."""
+        arguments = rows, states, reach, fired, number, found, *self.numbers, *(work or self.work())
+        if fast:  # compiled code warns of nothing
+            return DECIDE.functions(True)["decide"](*arguments)
+        with np.errstate(all="ignore"):
+            return DECIDE.functions(False)["decide"](*arguments)
+
+    def work(self) -> tuple[np.ndarray, ...]:
+        """Arrays to work in. No two threads may share them, as they may share the test."""
+        row = np.zeros((2, self.columns))
+        return (np.ones((4, 2 * kernel.MIDDLE + 1)), np.zeros(self.powers, complex),
+                np.zeros((2, self.terms)), row[0], row[1], np.zeros(6))
 
     def constants(self, state: np.ndarray, near: float = 0.0, fast: bool = False) -> tuple[float, ...] | None:
         """The six constants for all states of the ball of radius `near` about one (3,); None where the
@@ -275,64 +284,6 @@ class Certifier:
         fired, result = np.full(1, -1), np.full((6, 1), np.nan)
         self.decide(np.arange(1), np.array([state], float), np.array([near], float), fired, 0, result, fast)
         return None if fired[0] else tuple(result[:, 0].tolist())
-
-
-def _sums(terms: Terms, coefficients: np.ndarray, parts: int, shift: Sequence[int] = (0, 0)):
-    """(exponents (2, columns), table (degrees, columns)) of a sum of coefficients by degree and exponents; of
-    no terms one that is 0."""
-    exponents, places, degrees = worked_out(_columns, terms.shape, parts, *shift)
-    size = degrees * exponents.shape[1]
-    return exponents, _table(places, coefficients, size).reshape(degrees, -1)
-
-
-def _table(places: np.ndarray, numbers: np.ndarray, size: int) -> np.ndarray:
-    """The sums of the numbers at each place, in doubles: of nothing NumPy makes whole numbers, for which the
-    kernel would be compiled once more."""
-    return np.bincount(places, numbers, size).astype(float, copy=False)
-
-
-def _columns(shape: Shape, parts: int, up: int, over: int):
-    """(exponents (2, columns); the entry of the flat table of each term; degrees)."""
-    j, k, a, b = shape.powers
-    exponents, column = _distinct((a + up) * parts // 4, (b + over) * parts // 4)
-    degrees = 1 + int((j + k).max(initial=0))
-    return exponents, (j + k) * exponents.shape[1] + column, degrees
-
-
-def _quantity(terms: Terms, parts: int):
-    """What is added to a quantity, as the kernel has it: exponents (2, columns), sums of sizes, of majorants
-    (degrees, columns), real and imaginary parts of the terms with j >= k (2, columns, powers), j and k (2,
-    powers). Terms come with their conjugates."""
-    exponents, sums = _sums(terms, sizes(terms), parts)
-    _, largest = _sums(terms, terms.m, parts)
-    half, twice, places, degrees = worked_out(_powers, terms.shape)
-    c = twice * terms.c[half]
-    size = exponents.shape[1] * degrees.shape[1]
-    values = np.stack([_table(places, numbers, size).reshape(exponents.shape[1], -1)
-                       for numbers in (c.real, c.imag)])
-    return exponents, sums, largest, values, degrees
-
-
-def _powers(shape: Shape):
-    """Of the terms with j >= k: (which they are; 2 beside a conjugate, 1 where j = k; the entry of the flat
-    table of each; distinct j and k (2, powers))."""
-    j, k, a, b = shape.powers
-    half, (_, column) = np.flatnonzero(j >= k), _distinct(a, b)
-    degrees, place = _distinct(j[half], k[half])
-    return half, np.where(j == k, 1, 2)[half], column[half] * degrees.shape[1] + place, degrees
-
-
-PAIR = 1 << 20  # two whole numbers of less than half of it are one
-
-
-def _distinct(a: np.ndarray, b: np.ndarray):
-    """The distinct pairs of whole numbers (2, m), ordered, and which of them each pair is, (n,); (0, 0) where
-    there are none."""
-    if not a.size:
-        return np.zeros((2, 1), np.int64), np.zeros(0, np.int64)
-    one, which = np.unique(a * PAIR + b, return_inverse=True)
-    first = (one + PAIR // 2) // PAIR
-    return np.stack([first, one - first * PAIR]), which
 
 
 class Tests:
@@ -374,14 +325,16 @@ class Tests:
     def __bool__(self):
         return bool(self.often)
 
-    def certifier(self, field: FixedCentre | MovingCentre, orders: tuple[int, int]) -> Certifier:
-        """The test itself. What others made does not alter an answer."""
+    def certifier(self, field: FixedCentre | MovingCentre, orders: tuple[int, int],
+                  fast: bool | None = None) -> Certifier:
+        """The test itself, made by compiled code or not (None: as `ELIMINATE` has it). What others made does
+        not alter an answer."""
         key = id(field), orders
         if key not in self.made:
             # before it is made: another thread that finds it made looks for its number
             if (field, orders) not in self.asked:
                 self.asked.append((field, orders))
-            self.made[key] = Certifier(field, orders)
+            self.made[key] = Certifier(field, orders, ELIMINATE.pays(TABLES[not field.sharp], fast))
         return self.made[key]
 
 

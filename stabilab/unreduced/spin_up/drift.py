@@ -32,7 +32,6 @@ only, so that small circles that drift far stay on it."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import lru_cache
 from math import factorial
@@ -94,17 +93,21 @@ class Runs:
 
     def _call(self, name: str, *arguments):
         function = ADVANCE.functions(self.fast)[name]
-        with nullcontext() if self.fast else np.errstate(all="ignore"):  # compiled code warns of nothing
+        if self.fast:  # compiled code warns of nothing
+            function(*arguments)
+            return
+        with np.errstate(all="ignore"):
             function(*arguments)
 
-    def _run(self, states: np.ndarray, *arguments):
-        """`steps.run`."""
+    @property
+    def _memory(self) -> tuple:
+        """What `steps.run` works in."""
         if self.fast not in self._work:
             made = work(kernel.SIDE_BY_SIDE if self.fast else 1)
             # plain Python reads plain numbers out of memory twice as fast
             self._work[self.fast] = made if self.fast else tuple(
                 memoryview(array) for array in made)  # type: ignore[arg-type]  # read and written alike
-        self._call("run", self.coefficients, states, *arguments, *self._work[self.fast])
+        return self._work[self.fast]
 
     def advance(self, rows: np.ndarray, steps: int, t_max: float, pause: float = 0.0,
                 budget: int = 2**62):
@@ -113,35 +116,29 @@ class Runs:
         self.steps_done += steps
         self.counted += steps * len(rows)
         twins, m = self.twins, len(rows)
-        counts = np.minimum(np.maximum(budget - self.steps[rows], 1), steps)
-        (ends, changes), (spans, left, reached), met = np.empty((2, m, 3)), np.empty((3, m)), np.empty((2, m))
-        self._call("begin", self.coefficients, rows, t_max, pause, self.states, self.times, twins.ahead, ends,
-                   changes, spans, *np.empty((2, 3)))
-        self._run(ends, changes, spans, counts.copy(), left, reached, met)
-        self._call("end", self.coefficients, rows, counts, t_max, pause, STEP_ERROR, ends, changes, spans,
-                   reached, met, self.states, self.times, twins.growth, twins.most, twins.ahead, twins.blur,
-                   self.met, self.steps, self.rounded, *np.empty((3, 3)))
+        self._call("advance", self.coefficients, rows, steps, t_max, pause, budget, STEP_ERROR, self.states,
+                   self.times, twins.ahead, twins.growth, twins.most, twins.blur, self.met, self.steps,
+                   self.rounded, np.empty((2, m, 3)), np.empty((3, m)), np.empty((2, m)),
+                   np.empty((2, m), np.int64), np.empty((3, 3)), *self._memory)
 
     def carried(self, states: np.ndarray, spans: np.ndarray, most: int):
         """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the
         most steps."""
         out, (left, times) = np.array(states, order="C"), np.empty((2, len(spans)))
         self.counted += min(most, REVOLUTION) * len(states)
-        self._run(out, np.zeros_like(out), spans, np.full(len(spans), most), left, times,
-                  np.empty((2, len(spans))))
+        self._call("run", self.coefficients, out, np.zeros_like(out), spans, np.full(len(spans), most), left,
+                   times, np.empty((2, len(spans))), *self._memory)
         return out, times
 
-    def measure(self, rows, out):
-        """Note in columns (n,) of `follow.Chased` how much a small change of rows has grown, how far their
-        rounding reaches, and (n, 48) their sizes."""
+    def measure(self, rows, out, t_max: float, budget: int) -> np.ndarray:
+        """Note in columns (n,) of `follow.Chased` how much a small change of rows (m,) has grown, how far
+        their rounding reaches, and (n, 48) their sizes; (m,) which of them are at the end of their time or of
+        their steps, or beyond doubles."""
+        over = np.empty(len(rows), bool)
         self._call("measure", rows, self.states, self.steps, self.rounded, self.twins.growth, self.met,
-                   STEP_ERROR, out.condition, out.reach, out.largest, out.least)
-
-    def over(self, rows: np.ndarray, t_max: float, budget: int):
-        """(m,) which of rows are at the end of their time or of their steps, or beyond doubles."""
-        out = np.empty(len(rows), bool)
-        self._call("over", rows, self.states, self.times, self.steps, t_max, budget, out)
-        return out
+                   STEP_ERROR, out.condition, out.reach, out.largest, out.least, self.times, t_max, budget,
+                   over)
+        return over
 
     def compare(self, rows, starts, twins, delays, apart):
         """Take note of how twins have gone apart, and say where they tell nothing (`Twins.compare`)."""

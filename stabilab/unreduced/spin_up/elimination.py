@@ -1,8 +1,8 @@
 """Elimination of what oscillates in the rate of a quantity (the fields are those of `centres`): a corrected
 energy and a corrected amplitude, to any order, take away what oscillates about the centre.
 
-Quantities are sums of c zeta^j zeta*^k p^(-a/4) q^(-b/4), many terms at a time in arrays (`Terms`); p and q
-are linear in the spin x. Along the motion, with `Algebra`'s names,
+Quantities are sums of c zeta^j zeta*^k p^(-a/4) q^(-b/4); p and q are linear in the spin x. Along the motion,
+with `Algebra`'s names,
 
     zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + x' carried + drift,        x' = x_rate,
     d/dt  = i Om (zeta d - zeta* d*) + x' [d/dx + along carried] + along drift.
@@ -10,337 +10,271 @@ are linear in the spin x. Along the motion, with `Algebra`'s names,
 An oscillating term c zeta^j zeta*^k f(x) of a rate (j != k) is taken away by adding -c/(i Om (j - k)) zeta^j
 zeta*^k f(x) to the quantity: its rate then holds -c zeta^j zeta*^k f(x) and the price, what the rest of d/dt
 makes of the added term, smaller by at least one power of the spin. What does not oscillate (j = k) stays.
-Level of a term: four times the power of 1/x with which it falls.
+Level of a term: four times the power of 1/x with which it falls. What is added in one level makes terms of
+higher levels alone, so levels are gone through once, from the lowest on. Rates are real: their terms come
+with their conjugates, and half of them, j >= k, need be followed.
 
 Rounding. Beside each coefficient goes its majorant, formed by the same operations on sizes, without
 subtraction: a coefficient is a sum of products, its majorant the sum of the same products' sizes. Each
 product is formed by fewer than 2^14 roundings (orders below 40: some ten to a level, and sums of fewer than
-300 terms at each), so a coefficient in doubles errs by less than 2^-38 of its majorant. `sizes` gives |c| +
+300 terms at each), so a coefficient in doubles errs by less than 2^-38 of its majorant. Tables have |c| +
 ROUNDING majorant, ROUNDING = 2^-32, which covers that 64 times over.
 
-Exponents and numbers are apart: which terms there are, which of them coincide and in what order they stand
-follows from exponents alone, and those are the same for nearly all scenes. A `Shape` holds the exponents of a
-sum, and what follows from them is worked out once for all scenes (`worked_out`); a scene has the arithmetic
-of its coefficients alone."""
+The few terms that an elimination begins with are in dicts (`Terms`), the many that it makes in flat tables
+(`elimination_kernel`). How large these have to be follows from how far one step moves a term at most."""
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
-ROUNDING = 2.0**-32
-_A, _K, _J = 1 << 16, 1 << 32, 1 << 40
-_MIDDLE = (1 << 15) + (1 << 15) * _A
-MAX_BYTES = 3 << 24  # of what was worked out from exponents: beyond it all of that is forgotten
+from ...numbers.numba_door import Kernel
+from . import elimination_kernel as kernel
 
-
-def packed(j: int, k: int, a: float, b: float):
-    """(j, k, a, b) in one integer, linearly: the key of a product is the sum of the keys. j, k below 256, a
-    and b between -2^15 and 2^15."""
-    return j * _J + k * _K + a * _A + b
-
-
-class Shape:
-    """The exponents of a sum of terms, an integer each (`packed`), (n,). Shapes are compared by identity."""
-
-    def __init__(self, keys: np.ndarray):
-        self.keys = keys
-
-    @property
-    def powers(self) -> tuple[np.ndarray, ...]:
-        """(j, k, a, b), (n,) each."""
-        keys = self.keys + _MIDDLE
-        return keys >> 40, keys >> 32 & 255, (keys >> 16 & _A - 1) - (1 << 15), (keys & _A - 1) - (1 << 15)
-
-    @property
-    def apart(self) -> np.ndarray:
-        """j - k, (n,)."""
-        keys = self.keys + _MIDDLE
-        return (keys >> 40) - (keys >> 32 & 255)
-
-
-_WORKED_OUT: dict[Hashable, Any] = {}
-_BYTES = [0]
-
-
-def worked_out(work: Callable[..., Any], *shapes: Any) -> Any:
-    """work(*shapes), of shapes and other hashable things, from an earlier time where there was one. work: a
-    function of a module, which needs nothing else; its result is shared, and nobody changes it."""
-    key = work, shapes
-    result = _WORKED_OUT.get(key)
-    if result is None:
-        result = work(*shapes)
-        _BYTES[0] += _bytes(result)
-        if _BYTES[0] > MAX_BYTES:
-            _WORKED_OUT.clear()
-            _BYTES[0] = 0
-        _WORKED_OUT[key] = result
-    return result
-
-
-def _bytes(result: Any) -> int:
-    if isinstance(result, Shape):
-        return result.keys.nbytes
-    return sum(map(_bytes, result)) if isinstance(result, tuple) else getattr(result, "nbytes", 0)
-
-
-def _shape_of(keys: tuple[int, ...]) -> Shape:
-    return Shape(np.array(keys, np.int64))
-
-
-def _moved(shape: Shape, key: int) -> Shape:
-    return Shape(shape.keys + key)
-
-
-def _conjugate(shape: Shape) -> Shape:
-    return Shape(shape.keys - shape.apart * (_J - _K))
-
-
-def _part(shape: Shape, rows: Callable[..., np.ndarray], *options: Hashable) -> tuple[Shape, np.ndarray]:
-    """(exponents of the rows that a function of a module chooses, these rows)."""
-    chosen = np.flatnonzero(rows(shape, *options))
-    return Shape(shape.keys[chosen]), chosen
-
-
-def _gathered(shapes: Sequence[Shape], halves: Sequence[Shape]) -> tuple[Shape, *tuple[np.ndarray, ...]]:
-    """(exponents of the sum of all, no two alike, rising; order of the terms; where each begins in it; to
-    which each belongs; by what the real and the imaginary part of each are multiplied: 2 and 0 of one for
-    twice its real part, 1 and -1 of one for its conjugate)."""
-    keys = np.concatenate([shape.keys for shape in (*shapes, *halves)])
-    begin, apart = sum(len(shape.keys) for shape in shapes), Shape(keys).apart
-    real, imaginary = np.ones((2, len(keys)))
-    real[begin:] += apart[begin:] == 0
-    imaginary[begin:] = np.sign(apart[begin:])
-    keys -= np.minimum(apart, 0) * (np.arange(len(keys)) >= begin) * (_J - _K)
-    order = keys.argsort(kind="stable")
-    keys = keys[order]
-    new = np.ones(len(keys), bool)
-    np.not_equal(keys[1:], keys[:-1], out=new[1:])
-    which = np.empty_like(order)
-    which[order] = new.cumsum() - 1
-    return Shape(keys[new]), order, new.nonzero()[0], which, real, imaginary
-
-
-def _product(shape: Shape, other: Shape) -> Shape:
-    return Shape((shape.keys[:, None] + other.keys).ravel())
-
-
-def _not_below(shape: Shape) -> np.ndarray:
-    return shape.apart >= 0
-
-
-def _above(shape: Shape) -> np.ndarray:
-    return shape.apart > 0
-
-
-def _lowering(shape: Shape, which: int, step: int) -> tuple[Shape, np.ndarray, np.ndarray]:
-    """(exponents of the terms in which one of them, 0 to 3 for j, k, a, b, is not 0, times a monomial; which
-    terms these are; that exponent of each)."""
-    powers = shape.powers[which]
-    chosen = np.flatnonzero(powers)
-    return Shape(shape.keys[chosen] + step), chosen, powers[chosen]
-
-
-def _derivative(shape: Shape, *parts: Shape) -> tuple[Shape, np.ndarray, np.ndarray, np.ndarray]:
-    """(exponents; which term; which of what stands for the four exponents; the exponent) of the products of a
-    `_Derivative`."""
-    columns, begin = [], 0
-    for powers, rate in zip(shape.powers, parts):
-        chosen, n = np.flatnonzero(powers), len(rate.keys)
-        columns.append((np.add.outer(shape.keys[chosen], rate.keys).ravel(), chosen.repeat(n),
-                        np.tile(begin + np.arange(n), chosen.size), powers[chosen].repeat(n)))
-        begin += n
-    keys, term, part, power = map(np.concatenate, zip(*columns))
-    return Shape(keys), term, part, power.astype(float)
-
-
-@dataclass(slots=True, eq=False)  # thousands are made for each scene
-class Terms:
-    """shape: of n terms, no two alike; c: (n,) coefficients; m: (n,) what the sizes of all that was added up
-    in c come to."""
-
-    shape: Shape
-    c: np.ndarray
-    m: np.ndarray
-
-    @property
-    def keys(self) -> np.ndarray:
-        """(n,) integers of the exponents."""
-        return self.shape.keys
-
-    def part(self, rows: Callable[..., np.ndarray], *options: Hashable) -> Terms:
-        """The terms that a function of their shape chooses."""
-        shape, chosen = worked_out(_part, self.shape, rows, *options)
-        return Terms(shape, self.c[chosen], self.m[chosen])
-
-    def times(self, factor: complex | np.ndarray) -> Terms:
-        """Each coefficient times a number or an array of numbers."""
-        return Terms(self.shape, self.c * factor, self.m * np.abs(factor))
-
-    def lowered(self, which: int, key: int, factor: float = 1) -> Terms:
-        """Times one of the exponents (0 to 3: j, k, a, b), a factor and a monomial; without those where it is
-        0."""
-        shape, chosen, powers = worked_out(_lowering, self.shape, which, key)
-        factors = powers * factor
-        return Terms(shape, self.c[chosen] * factors, self.m[chosen] * np.abs(factors))
-
-    def moved(self, key: int) -> Terms:
-        """Times one monomial."""
-        return Terms(worked_out(_moved, self.shape, key), self.c, self.m)
-
-    def conjugate(self) -> Terms:
-        """The conjugate of the sum: zeta^j zeta*^k becomes zeta^k zeta*^j."""
-        return Terms(worked_out(_conjugate, self.shape), self.c.conjugate(), self.m)
-
-    def half(self) -> Terms:
-        """Of a real sum, whose terms come with their conjugates, those with j >= k."""
-        return self.part(_not_below)
-
-    def whole(self) -> Terms:
-        """The real sum of which `half` is left."""
-        return gathered(self, self.part(_above).conjugate())
+# {(j, k, a, b): (c, majorant of c)}
+Terms = dict[tuple[int, int, int, int], tuple[complex, float]]
+ELIMINATE = Kernel(kernel, "eliminate", 1.2, options={
+    "allocating": False, "entries": {"eliminate", "tabulate"}} | kernel.LOOPS)
 
 
 def terms_of(table: dict) -> Terms:
     """Terms from {(j, k, a, b): c}."""
-    c = np.array(list(table.values()), complex)
-    return Terms(worked_out(_shape_of, tuple(packed(*key) for key in table)), c, np.abs(c))
+    return {key: (c, abs(c)) for key, c in table.items()}
 
 
-def gathered(*parts: Terms, halves: Sequence[Terms] = ()) -> Terms:
-    """The sum of sums of terms; halves: others, added with their conjugates, as half of a real sum."""
-    full = *parts, *halves
-    if not full:
-        return terms_of({})
-    shape, order, first, which, real, imaginary = worked_out(
-        _gathered, tuple([part.shape for part in parts]), tuple([part.shape for part in halves]))
-    c, m = np.concatenate([part.c for part in full]), np.concatenate([part.m for part in full])
-    if halves:
-        c.real *= real
-        c.imag *= imaginary
-        m *= real
-    return Terms(shape, np.add.reduceat(c[order], first), np.bincount(which, m, len(first)))
+def total(*parts: Terms) -> Terms:
+    """The sum of sums of terms."""
+    result: Terms = {}
+    for part in parts:
+        for key, (c, m) in part.items():
+            before = result.get(key)
+            result[key] = (c, m) if before is None else (before[0] + c, before[1] + m)
+    return result
 
 
 def product(item: Terms, other: Terms) -> Terms:
-    """The product of two sums of terms, like keys not yet added up."""
-    return Terms(worked_out(_product, item.shape, other.shape), (item.c[:, None] * other.c).ravel(),
-                 (item.m[:, None] * other.m).ravel())
+    """The product of two sums of terms."""
+    result: Terms = {}
+    for (j, k, a, b), (c, m) in item.items():
+        for (p, q, r, s), (d, n) in other.items():
+            key = j + p, k + q, a + r, b + s
+            before = result.get(key)
+            result[key] = (c * d, m * n) if before is None else (before[0] + c * d, before[1] + m * n)
+    return result
 
 
-def sizes(terms: Terms) -> np.ndarray:
-    """(n,) bounds of the true coefficients' sizes."""
-    return np.abs(terms.c) + ROUNDING * terms.m
+def times(terms: Terms, factor: complex, step: tuple[int, int, int, int] = (0, 0, 0, 0)) -> Terms:
+    """Each coefficient times a number, and times one monomial."""
+    p, q, r, s = step
+    return {(j + p, k + q, a + r, b + s): (c * factor, m * abs(factor))
+            for (j, k, a, b), (c, m) in terms.items()}
 
 
-class _Derivative:
-    """A sum over the four exponents of a monomial, each times one of these sums of terms times the monomial.
-    """
+def conjugate(terms: Terms) -> Terms:
+    """The conjugate of a sum: zeta^j zeta*^k becomes zeta^k zeta*^j."""
+    return {(k, j, a, b): (c.conjugate(), m) for (j, k, a, b), (c, m) in terms.items()}
 
-    def __init__(self, *parts: Terms):
-        self.shapes = tuple(part.shape for part in parts)
-        self.c, self.m = (np.concatenate(arrays) for arrays in zip(*((part.c, part.m) for part in parts)))
 
-    def of(self, terms: Terms) -> Terms:
-        """Of a sum of monomials; like keys not yet added up."""
-        shape, term, part, power = worked_out(_derivative, terms.shape, *self.shapes)
-        return Terms(shape, terms.c[term] * (power * self.c[part]),
-                     terms.m[term] * (np.abs(power) * self.m[part]))
+def half(terms: Terms) -> Terms:
+    """Of a real sum, whose terms come with their conjugates, those with j >= k."""
+    return {key: value for key, value in terms.items() if key[0] >= key[1]}
 
 
 @dataclass(frozen=True)
 class Algebra:
     """What the time derivative of a form is made of.
 
-    lift: i/om; turn: (a, b) of the turning rate Om = om p^(-a/4) q^(-b/4); fall: the factors of d/dx,
-    -slope/4 of p and of q; x_rate: terms of x'; carried: terms of zeta' over x'; drift: its other terms;
-    weights: what p and q count in the level, 0 for a q that is constant.
+    lift: 1/om; turn: (a, b) of the turning rate Om = om p^(-a/4) q^(-b/4); fall: the factors of d/dx,
+    -slope/4 of p and of q; x_rate: terms of x'; carried: terms of zeta' over x'; drift: its other terms,
+    where none are carried; unit, sheared: of `Grid`.
     """
 
-    lift: complex
-    turn: tuple
-    fall: tuple
+    lift: float
+    turn: tuple[int, int]
+    fall: tuple[float, float]
     x_rate: Terms
     carried: Terms
     drift: Terms
-    weights: tuple = (1, 1)
+    unit: int
+    sheared: bool
+
+    def slope(self, terms: Terms) -> Terms:
+        """d/dx of terms at constant zeta."""
+        return total(*(times({key: (c * key[which], m * abs(key[which])) for key, (c, m) in terms.items()
+                              if key[which]}, fall, (0, 0, *step))
+                       for step, fall, which in (((4, 0), self.fall[0], 2), ((0, 4), self.fall[1], 3))
+                       if fall))
 
     @cached_property
-    def _motion(self) -> tuple[tuple[_Derivative, Terms | None], ...]:
-        """Derivatives whose sum is d/dt, but for turning, each with what it is multiplied with."""
-        def along(zeta: Terms, x: Terms) -> _Derivative:
-            falls = (x.times(fall).moved(packed(0, 0, *step)) if fall else terms_of({})
-                     for step, fall in zip(((4, 0), (0, 4)), self.fall))
-            return _Derivative(zeta.moved(-_J), zeta.conjugate().moved(-_K), *falls)
-        if not len(self.carried.c):
-            return (along(self.drift, self.x_rate), None),
-        drifting = ((along(self.drift, terms_of({})), None),) if len(self.drift.c) else ()
-        return (along(self.carried, terms_of({(0, 0, 0, 0): 1.0})), self.x_rate), *drifting
+    def moves(self) -> tuple[Moves, Moves]:
+        """What a term that is added is multiplied with, by one of its exponents and after that, to give the
+        rest of its rate. The first holds by how much the exponents of what is added exceed those of the
+        rate."""
+        along = terms_of({(0, 0, 0, 0): 1.0}) if self.carried else self.x_rate
+        zeta, lifted = self.carried or self.drift, (-self.turn[0], -self.turn[1])
+        parts = [(0, times(zeta, 1.0, (-1, 0, *lifted))), (1, times(conjugate(zeta), 1.0, (0, -1, *lifted)))]
+        parts += [(which, times(along, fall, (0, 0, lifted[0] + a, lifted[1] + b)))
+                  for (a, b), fall, which in (((4, 0), self.fall[0], 2), ((0, 4), self.fall[1], 3)) if fall]
+        return _moves(self, parts), _moves(self, [(4, self.x_rate)] if self.carried else [])
 
-    def rest_of_rate(self, terms: Terms) -> list[Terms]:
-        """The rate of a quantity apart from what turning makes of it, as sums that are not yet one, like keys
-        not yet added up."""
-        return [derivative.of(terms) if factor is None else product(gathered(derivative.of(terms)), factor)
-                for derivative, factor in self._motion]
+    @cached_property
+    def reach(self) -> tuple[tuple[int, int, int, int], ...]:
+        """By how much both together can raise the level; and at most the degree, at least and at most the
+        column of a term beside it."""
+        rows = {(degree + more, level + higher, column + farther)
+                for degree, level, column in self.moves[0].steps.tolist()
+                for more, higher, farther in self.moves[1].steps.tolist() or [(0, 0, 0)]}
+        parts: dict[int, list[tuple[int, int]]] = {}
+        for degree, level, column in rows:
+            parts.setdefault(level, []).append((degree, column))
+        return tuple((level, max(part)[0], min(column for _, column in part),
+                      max(column for _, column in part)) for level, part in sorted(parts.items()))
 
-    def slope(self, terms: Terms) -> list[Terms]:
-        """d/dx of terms at constant zeta, as sums that are not yet one."""
-        return [terms.lowered(which, packed(0, 0, *step), fall)
-                for step, fall, which in (((4, 0), self.fall[0], 2), ((0, 4), self.fall[1], 3)) if fall]
-
-
-@dataclass(frozen=True)
-class Corrected:
-    """What was added to a quantity, and what is left of its rate (of an energy: without the drive)."""
-
-    added: Terms
-    rate: Terms
+    def level(self, a: int, b: int) -> int:
+        """The level of exponents, in its unit."""
+        return (a + b) // self.unit
 
 
-def _next(shape: Shape, weights: Sequence[int], order: int) -> np.ndarray:
-    """The oscillating terms of the lowest level, four times the power of 1/x with which they fall, up to an
-    order; none where there are none."""
-    _, _, a, b = shape.powers
-    levels = weights[0] * a + weights[1] * b
-    oscillating = (shape.apart != 0) & (levels <= 4 * order)
-    return oscillating & (levels == levels[oscillating].min(initial=4 * order))
+class Moves(NamedTuple):
+    """Monomials that terms are multiplied with: the kind of the exponent that is a factor (n,); steps (n, 3)
+    in degree, level and column; step in k (n,); factors (3, n): real, imaginary part and majorant. lowest:
+    step in level, of so many levels; conjugate, farthest: greatest step in k, and in column, either way."""
+
+    kinds: np.ndarray
+    steps: np.ndarray
+    conjugates: np.ndarray
+    factors: np.ndarray
+    lowest: int
+    levels: int
+    conjugate: int
+    farthest: int
+
+    def placed(self, grid: kernel.Grid, lifted: int) -> tuple[np.ndarray, np.ndarray]:
+        """`moves` and `factors` of the kernel; lifted: less in levels."""
+        moves = np.empty((3, len(self.kinds)), np.int64)
+        moves[0], moves[1] = self.kinds, self.steps[:, 1] - lifted
+        moves[2] = (self.steps[:, 0] * grid.conjugates + self.conjugates) * grid.columns + self.steps[:, 2]
+        return moves, self.factors
 
 
-def _removal(shape: Shape, weights: Sequence[int], order: int, step: int
-             ) -> tuple[Shape, np.ndarray, np.ndarray, Shape, np.ndarray]:
-    """(exponents of what takes the next oscillating terms out of a rate, which terms these are, their j - k;
-    exponents of the others, which these are)."""
-    rows = _next(shape, weights, order)
-    chosen, others = np.flatnonzero(rows), np.flatnonzero(~rows)
-    return (Shape(shape.keys[chosen] + step), chosen, shape.apart[chosen], Shape(shape.keys[others]),
-            others)
+def _moves(algebra: Algebra, parts: Sequence[tuple[int, Terms]]) -> Moves:
+    """Of terms by the kind of their factor."""
+    rows = [(kind, j + k, (a + b) // algebra.unit, (a + j + k) // 2 if algebra.sheared else 0, k)
+            for kind, terms in parts for j, k, a, b in terms]
+    factors = [(c.real, c.imag, m) for _, terms in parts for c, m in terms.values()]
+    kinds, degrees, levels, columns, conjugates = zip(*rows) if rows else ((),) * 5
+    return Moves(np.array(kinds, np.int64), np.array([degrees, levels, columns], np.int64).T,
+                 np.array(conjugates, np.int64), np.array(factors).reshape(-1, 3).T.copy(),
+                 min(levels, default=0), 1 + max(levels, default=0) - min(levels, default=0),
+                 max(conjugates, default=0), max(map(abs, columns), default=0))
+
+
+class Tables(NamedTuple):
+    """What is added to a quantity and what is left of its rate, for the kernel of the certificate. Exponents
+    (2, columns) over `parts`; sums of sizes, of majorants (degrees, columns); twice the real and imaginary
+    parts of the terms with j > k (2, columns, powers), which have j and k (2, powers)."""
+
+    exponents: np.ndarray
+    sums: np.ndarray
+    largest: np.ndarray
+    values: np.ndarray
+    degrees: np.ndarray
+    left_exponents: np.ndarray
+    left_sums: np.ndarray
+    reach: int  # the greatest sum of sizes of two exponents
 
 
 class Elimination:
-    """What oscillates taken out of a rate, which is real: its terms come with their conjugates, so that half
-    of them need be followed. A higher order goes on where a lower one has ended."""
+    """What oscillates taken out of a rate.
 
-    def __init__(self, algebra: Algebra, rate: Terms):
-        self.algebra = algebra
-        # order, what was added, what is left; replaced as a whole, for threads may share it
-        self.begun = self.reached = -1, tuple[Terms, ...](), rate.half()
+    rate: real, its terms come with their conjugates, unless it is half; added: such terms that were added
+    before, of levels that the rate does not have; drive: a term that is left out of what is left; over: (a,
+    b, size) of what is left is divided by size p^(-a/4) q^(-b/4)."""
 
-    def to(self, order: int) -> Corrected:
-        """Everything oscillating up to x^-order."""
-        reached = self.reached
-        _, parts, rate = reached if reached[0] <= order else self.begun
-        algebra, step = self.algebra, -packed(0, 0, *self.algebra.turn)
-        while True:
-            shape, chosen, apart, left, others = worked_out(_removal, rate.shape, algebra.weights, order,
-                                                            step)
-            if not len(chosen):
-                break
-            factors = algebra.lift / apart
-            added = Terms(shape, rate.c[chosen] * factors, rate.m[chosen] * np.abs(factors))
-            parts = *parts, added
-            rate = gathered(Terms(left, rate.c[others], rate.m[others]), halves=algebra.rest_of_rate(added))
-        self.reached = order, parts, rate
-        return Corrected(gathered(*parts).whole(), rate.whole())
+    def __init__(self, algebra: Algebra, rate: Terms, added: Terms | None = None,
+                 drive: tuple[int, int, int, int] | None = None, over: tuple[int, int, float] = (0, 0, 1.0)):
+        self.algebra, self.over = algebra, over
+        # j = k stands for itself and its conjugate
+        self.rate = [(key, c * 0.5, m * 0.5) if key[0] == key[1] else (key, c, m)
+                     for key, (c, m) in half(rate).items()]
+        a, b = algebra.turn  # where the rate would be of which it is taken
+        self.added = [((j, k, r + a, s + b), c, m) for (j, k, r, s), (c, m) in (added or {}).items() if j > k]
+        self.drive = drive and algebra.level(*drive[2:])
+        self.start = tuple(sorted({(algebra.level(a, b), j + k, (a + j + k) // 2 if algebra.sheared else 0)
+                                   for (j, k, a, b), *_ in self.rate + self.added})) or ((0, 0, 0),)
+
+    def grid(self, order: int) -> kernel.Grid:
+        """The grid for everything up to x^-order."""
+        algebra, (one, two) = self.algebra, self.algebra.moves
+        lowest, last, levels, highest, degrees, low, high = _room(self.start, algebra.reach,
+                                                                  4 * order // algebra.unit)
+        return kernel.Grid(
+            levels, 1 + max(highest, algebra.reach[-1][0]), one.levels if algebra.carried else 0, one.lowest,
+            1 + degrees, degrees // 2 + 1 + one.conjugate + two.conjugate,
+            # a first product goes beyond by no more than one of its steps, and raises no degree
+            1 + high + one.farthest - low + one.farthest, lowest, low - one.farthest, algebra.unit,
+            int(algebra.sheared), *algebra.turn, last, -1 if self.drive is None else self.drive - lowest)
+
+    def to(self, order: int, parts: int, fast: bool = False) -> Tables:
+        """Tables after everything oscillating up to x^-order, with exponents in that part of a whole. fast:
+        by compiled code."""
+        functions, algebra, grid = ELIMINATE.functions(fast), self.algebra, self.grid(order)
+        one, two = algebra.moves
+        size = grid.degrees * grid.conjugates * grid.columns
+        table = np.zeros((3, (grid.present + grid.between) * size))
+        for (j, k, a, b), c, m in self.rate:
+            column = (a + j + k) // 2 - grid.first if grid.sheared else 0
+            slot = ((algebra.level(a, b) - grid.lowest) * size
+                    + ((j + k) * grid.conjugates + k) * grid.columns + column)
+            table[0, slot], table[1, slot], table[2, slot] = c.real, c.imag, m
+        # of each level half the terms are added at most, and all of those at the end are left
+        room = size * (grid.levels // 2 + max(grid.present, 2))
+        exponents, values = np.empty((2, 6, room), np.int64), np.empty((2, 3, room))
+        counts = np.zeros(7, np.int64)
+        for n, ((j, k, a, b), c, m) in enumerate(self.added):
+            mark = algebra.level(a, b) - grid.lowest
+            if grid.sheared:
+                mark += (a + grid.degrees - 2 * grid.first) * grid.levels
+            exponents[0, :, n] = (j + k, k, mark, j * grid.conjugates + k, a - grid.turn_a, b - grid.turn_b)
+            values[0, :, n] = c.real, c.imag, m
+            counts[0], counts[2] = n + 1, max(counts[2], j + k + 1)
+        pairs_of_exponents = (2 * grid.columns + grid.degrees if grid.sheared else 1) * grid.levels
+        marks = np.zeros((2, pairs_of_exponents), np.int64)
+        pairs = np.zeros(grid.degrees * grid.conjugates, np.int64)
+        functions["eliminate"](
+            table, algebra.lift, np.array(grid, np.int64),
+            *one.placed(grid, grid.lifted if grid.between else 0), *two.placed(grid, 0), exponents, values,
+            marks, pairs, counts, np.empty(size, np.int64), np.ones((5, size)), np.empty((3, size)))
+        # of no terms one that is 0
+        _, _, degrees, left_degrees, columns, left_columns, terms = np.maximum(counts, 1).tolist()
+        tables = (np.zeros((2, columns), np.int64), np.zeros((degrees, columns)),
+                  np.zeros((degrees, columns)), np.zeros((2, columns, terms)), np.zeros((2, terms), np.int64),
+                  np.zeros((2, left_columns), np.int64), np.zeros((left_degrees, left_columns)))
+        a, b, divisor = self.over
+        return Tables(*tables, functions["tabulate"](
+            exponents, values, marks, pairs, counts, -a, -b, 2 if parts == 1 else 0, divisor, *tables))
+
+
+@lru_cache(maxsize=256)  # the same for nearly all scenes
+def _room(start: tuple[tuple[int, int, int], ...], reach: tuple[tuple[int, int, int, int], ...], end: int):
+    """How far terms come that begin with these levels, degrees and columns, where those up to the level `end`
+    are moved on: (lowest level; from there on the last that is moved, the number of levels, the highest at
+    the start; greatest degree, least and greatest column)."""
+    lowest, highest = min(start)[0], max(start)[0] - min(start)[0]
+    last = end - lowest
+    levels = 1 + max(highest, last + reach[-1][0])
+    degrees, low, high = [-1] * levels, [0] * levels, [0] * levels
+    for level, degree, column in start:
+        n = level - lowest
+        degrees[n], low[n] = max(degrees[n], degree), min(low[n], column)
+        high[n] = max(high[n], column)
+    for number in range(last + 1):
+        degree, least, most = degrees[number], low[number], high[number]
+        for level, more, lower, upper in reach if degree > 0 else ():
+            n = number + level
+            degrees[n], low[n] = max(degrees[n], degree + more), min(low[n], least + lower)
+            high[n] = max(high[n], most + upper)
+    return lowest, last, levels, highest, max(degrees), min(low), max(high)

@@ -28,7 +28,7 @@ from ...physics.states import checked_states
 from ...reasons import Axis, Quantity, Reason, Sentence
 from ...validation import checked_scene
 from ..enclosure import proved
-from .certificate import ADVANCE, DECIDE, Tests, exactly, tests_of
+from .certificate import ADVANCE, DECIDE, Certifier, Tests, exactly, tests_of
 from .drift import Leaps, Runs
 from .form import island, recurs, seen
 from .result import SpinUp, Trap
@@ -93,6 +93,8 @@ class Chased:
     blur: np.ndarray
     reach: np.ndarray
     given_up: dict[int, Reason] = field(default_factory=dict)
+    # of each test that was asked: itself, its index, and what it works in
+    tools: dict[tuple, tuple[Certifier, int, tuple[np.ndarray, ...]]] = field(default_factory=dict)
 
 
 def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budget: int, after: float = 0.0,
@@ -109,20 +111,23 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
     while open_.size:
         runs.fast = ADVANCE.pays(STEP * (runs.counted - counted), fast)
         counted = runs.counted
-        runs.measure(open_, out)
+        over = runs.measure(open_, out, t_max, budget)
         ready = open_ if after <= 0 else open_[out.t[open_] >= after]
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
         # rows that have just leapt: a test costs less than what they passed
         far = np.intersect1d(ready, leapt) if leapt.size else leapt
-        for rows, request in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
-            if rows.size:
-                _ask(out, rows, getattr(tests, request), fast)
-        open_ = open_[out.fired[open_] < 0]
-        ended = runs.over(open_, t_max, budget) | _hopeless(out, open_, t_max, budget)
-        if ended.any():  # the last word is that of all tests that so much work is worth
+        _ask(out, np.setdiff1d(ready, far) if far.size else ready, getattr(tests, which), fast)
+        if far.size:
+            _ask(out, far, tests.last, fast)
+        left = out.fired[open_] < 0
+        if not left.all():
+            open_, over = open_[left], over[left]
+        if budget > BUDGET:
+            over |= _hopeless(out, open_, t_max, budget)
+        if over.any():  # the last word is that of all tests that so much work is worth
             request = tests.last if runs.steps_done >= LAST else tests.all
-            _ask(out, open_[ended & (out.t[open_] >= after)], request, fast)
-        open_ = open_[~ended]
+            _ask(out, open_[over & (out.t[open_] >= after)], request, fast)
+            open_ = open_[~over]
         if open_.size:
             leapt = leaps.advance(open_, t_max, after)
             rows = np.setdiff1d(open_, leapt) if leapt.size else open_
@@ -140,7 +145,7 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
 def _hopeless(out: Chased, rows: np.ndarray, t_max: float, budget: int):
     """(m,) which of rows cannot come to a time that somebody names, for which many steps are allowed."""
     result = np.zeros(len(rows), bool)
-    for n, row in enumerate(rows.tolist() if budget > BUDGET else ()):
+    for n, row in enumerate(rows.tolist()):
         steps, t = int(out.steps[row]), float(out.t[row])
         left = steps * (t_max - t) / t if t > 0 else 0.0
         result[n] = steps >= SETTLED and too_far(steps, left, budget, SETTLED)
@@ -152,13 +157,16 @@ def _hopeless(out: Chased, rows: np.ndarray, t_max: float, budget: int):
 def _ask(out: Chased, rows: np.ndarray, which: Sequence[tuple[FixedCentre | MovingCentre, tuple[int, int]]],
          fast: bool | None):
     """Ask tests for rows, one after another for those that none has fired for; what fires is written down."""
-    for form, orders in which:
-        if not rows.size:
+    left = rows.size
+    for item in which:
+        if not left:
             break
-        test, number = out.tests.certifier(form, orders), out.tests.asked.index((form, orders))
-        test.decide(rows, out.states, out.reach, out.fired, number, out.constants,
-                    DECIDE.pays(TEST * rows.size, fast))
-        rows = rows[out.fired[rows] < 0]
+        if item not in out.tools:
+            test = out.tests.certifier(*item, fast)
+            out.tools[item] = test, out.tests.asked.index(item), test.work()
+        test, number, work = out.tools[item]
+        left = test.decide(rows, out.states, out.reach, out.fired, number, out.constants,
+                           DECIDE.pays(TEST * left, fast), work)
 
 
 def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int | None = None,

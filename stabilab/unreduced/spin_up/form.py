@@ -43,6 +43,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from ...equilibrium.gyrostat import gyrostat_equilibria
+from ...numbers.ratio import Ratio, ratios
 from ...orbit.one_state import in_range
 from ...reasons import Axis, Quantity, Reason, Sentence
 
@@ -102,16 +103,16 @@ def normal_form(D: Sequence[Fraction], wheel: Sequence[Fraction], torque: Sequen
 
     D, wheel, torque: three exact numbers each (floats are taken at their word), in principal axes.
     """
-    D, wheel, torque = (tuple(map(Fraction, v)) for v in (D, wheel, torque))
     i, j, k = order = axis, (axis + 1) % 3, (axis + 2) % 3
     sense = (torque[i] > 0) - (torque[i] < 0)
-    d2, d3 = D[i] - D[j], D[i] - D[k]
-    if not sense or not d2 * d3 > 0:
+    if not sense or (D[i] > D[j]) != (D[i] > D[k]) or D[i] in (D[j], D[k]):
         return None
     turn = (1, 1, 1) if sense > 0 else HALF_TURN
-    l1, l2, l3 = (t * wheel[n] for t, n in zip(turn, order))
-    M1, M2, M3 = (t * torque[n] for t, n in zip(turn, order))
-    D1, D2, D3, s = D[i], D[j], D[k], 1 if d2 > 0 else -1
+    (l1, l2, l3), (M1, M2, M3) = ([t * v[n] for t, n in zip(turn, order)]
+                                  for v in (ratios(wheel), ratios(torque)))
+    D1, D2, D3 = (ratios(D)[n] for n in order)
+    d2, d3 = D1 - D2, D1 - D3
+    s = 1 if d2 > 0 else -1
     a2, a3 = abs(d2), abs(d3)
     m2, m3 = M2 - l1 * l3 / d3, M3 + l1 * l2 / d2
     across, apart, half = D2 * D3, a2 * a3, (a3 - a2) / 2
@@ -124,12 +125,11 @@ def normal_form(D: Sequence[Fraction], wheel: Sequence[Fraction], torque: Sequen
         (math.sqrt(D2 * a2), s * math.sqrt(D3 * a3)), float(l2 * M2 / d2 + l3 * M3 / d3))
 
 
-def over_root(numerator: Fraction | float, square: Fraction) -> float:
-    """numerator/sqrt(square) of exact numbers: its square is exact before the root, and in no lowest terms,
-    which take long to find."""
+def over_root(numerator: Ratio | Fraction | float, square: Ratio | Fraction) -> float:
+    """numerator/sqrt(square) of exact numbers: its square is exact before the root."""
     (n, d), (p, q) = numerator.as_integer_ratio(), square.as_integer_ratio()
     size = math.sqrt((n * n * q) / (d * d * p))
-    return -size if numerator < 0 else size
+    return -size if n < 0 else size
 
 
 def scaled_normal_form(a: Fraction, b: Fraction, mu: Sequence[Fraction], axis: int) -> NormalForm | None:

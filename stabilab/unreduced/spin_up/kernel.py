@@ -302,18 +302,23 @@ def place_about_moving(w1: float, w2: float, w3: float, nearby: float, frame: np
 
 
 def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.ndarray, number: int,
-           result: np.ndarray, basis: np.ndarray, frame: np.ndarray, form: Form, drive_exponents: np.ndarray,
-           drive: np.ndarray, e_exponents: np.ndarray, e_sums: np.ndarray, e_largest: np.ndarray,
-           e_terms: np.ndarray, e_degrees: np.ndarray, b_exponents: np.ndarray, b_sums: np.ndarray,
-           b_largest: np.ndarray, b_terms: np.ndarray, b_degrees: np.ndarray, r_exponents: np.ndarray,
-           r_sums: np.ndarray, k_exponents: np.ndarray, k_sums: np.ndarray, rows: np.ndarray,
-           powers: np.ndarray, pair: np.ndarray, retained: np.ndarray, row: np.ndarray, out: np.ndarray):
+           result: np.ndarray, basis: np.ndarray, frame: np.ndarray, numbers: np.ndarray,
+           drive_exponents: np.ndarray, drive: np.ndarray, e_exponents: np.ndarray, e_sums: np.ndarray,
+           e_largest: np.ndarray, e_terms: np.ndarray, e_degrees: np.ndarray, b_exponents: np.ndarray,
+           b_sums: np.ndarray, b_largest: np.ndarray, b_terms: np.ndarray, b_degrees: np.ndarray,
+           r_exponents: np.ndarray, r_sums: np.ndarray, k_exponents: np.ndarray, k_sums: np.ndarray,
+           rows: np.ndarray, powers: np.ndarray, pair: np.ndarray, retained: np.ndarray, row: np.ndarray,
+           out: np.ndarray):
     """Ask for those of chosen rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
-    constants, where the inequality holds for the whole ball of radius reach (n,) about the state. basis:
-    (3, 3) axes in the body, rows; frame: the numbers of the place; the others: of `search`."""
+    constants, where the inequality holds for the whole ball of radius reach (n,) about the state. Returns
+    for how many it does not. basis: (3, 3) axes in the body, rows; frame: the numbers of the place; numbers:
+    of the form, (11,), for a tuple takes longer to hand over than all arrays; the others: of `search`."""
+    form, left = Form(numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5], int(numbers[6]),
+                      int(numbers[7]), int(numbers[8]), numbers[9], int(numbers[10])), 0
     for n in chosen:
         if fired[n] >= 0:
             continue
+        left += 1
         v1, v2, v3 = states[n, 0], states[n, 1], states[n, 2]
         w1 = basis[0, 0] * v1 + basis[0, 1] * v2 + basis[0, 2] * v3
         w2 = basis[1, 0] * v1 + basis[1, 1] * v2 + basis[1, 2] * v3
@@ -326,6 +331,7 @@ def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.
                             e_terms, e_degrees, b_exponents, b_sums, b_largest, b_terms, b_degrees,
                             r_exponents, r_sums, k_exponents, k_sums, rows, powers, pair, retained, row,
                             out):
-            fired[n] = number
+            fired[n], left = number, left - 1
             for i in range(6):
                 result[i, n] = out[i]
+    return left

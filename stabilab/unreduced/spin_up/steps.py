@@ -305,10 +305,12 @@ def end(coefficients: np.ndarray, rows: np.ndarray, steps: np.ndarray, t_max: fl
 
 def measure(rows: np.ndarray, states: np.ndarray, steps: np.ndarray, rounded: np.ndarray, growth: np.ndarray,
             met: np.ndarray, step_error: float, condition: np.ndarray, reach: np.ndarray, largest: np.ndarray,
-            smallest: np.ndarray):
+            smallest: np.ndarray, clock: np.ndarray, t_max: float, budget: int, over: np.ndarray):
     """Take note of rows (`follow.Chased`): condition (n,), reach (n,) of the rounding, largest and least (n,
-    48) size of the state by doublings of the steps. met (2, n): of `advance`; what it says is used up."""
-    for row in rows:
+    48) size of the state by doublings of the steps. met (2, n): of `advance`; what it says is used up. over
+    (m,): which of rows have come to the end of their time or of their steps, or beyond doubles."""
+    for n in range(rows.size):
+        row = rows[n]
         if growth[row] > condition[row]:
             condition[row] = growth[row]
         x, y, z = states[row, 0], states[row, 1], states[row, 2]
@@ -321,12 +323,21 @@ def measure(rows: np.ndarray, states: np.ndarray, steps: np.ndarray, rounded: np
         largest[row, doubling] = max(largest[row, doubling], far, met[0, row])
         smallest[row, doubling] = min(smallest[row, doubling], far, met[1, row])
         met[0, row], met[1, row] = 0.0, math.inf
+        over[n] = clock[row] >= t_max or steps[row] >= budget or not abs(x) + abs(y) + abs(z) < math.inf
 
 
-def over(rows: np.ndarray, states: np.ndarray, clock: np.ndarray, done: np.ndarray, t_max: float, budget: int,
-         out: np.ndarray):
-    """Which of rows have come to the end of their time or of their steps, or beyond doubles."""
+def advance(coefficients: np.ndarray, rows: np.ndarray, steps: int, t_max: float, pause: float, budget: int,
+            step_error: float, states: np.ndarray, clock: np.ndarray, ahead: np.ndarray, growth: np.ndarray,
+            largest: np.ndarray, blur: np.ndarray, lengths: np.ndarray, done: np.ndarray, rounded: np.ndarray,
+            ends: np.ndarray, times: np.ndarray, met: np.ndarray, due: np.ndarray, work: np.ndarray,
+            memory: np.ndarray, held: np.ndarray):
+    """Carry rows (m,) on by so many steps, or to t_max, as `begin`, `run` and `end` have it, and none beyond
+    the budget of steps. ends (2, m, 3), times (3, m), met (2, m), due (2, m), work (3, 3), memory, held: to
+    work in."""
     for n in range(rows.size):
-        row = rows[n]
-        size = abs(states[row, 0]) + abs(states[row, 1]) + abs(states[row, 2])
-        out[n] = clock[row] >= t_max or done[row] >= budget or not size < math.inf
+        due[0, n] = due[1, n] = min(max(budget - done[rows[n]], 1), steps)
+    begin(coefficients, rows, t_max, pause, states, clock, ahead, ends[0], ends[1], times[0], work[0],
+          work[1])
+    run(coefficients, ends[0], ends[1], times[0], due[0], times[1], times[2], met, memory, held)
+    end(coefficients, rows, due[1], t_max, pause, step_error, ends[0], ends[1], times[0], times[2], met,
+        states, clock, growth, largest, ahead, blur, lengths, done, rounded, work[0], work[1], work[2])

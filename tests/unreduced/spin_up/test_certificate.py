@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.unreduced.spin_up import certificate, elimination
+from stabilab.unreduced.spin_up import certificate
 from stabilab.unreduced.spin_up.centres import FixedCentre, moving_centre
-from stabilab.unreduced.spin_up.certificate import Certifier
+from stabilab.unreduced.spin_up.certificate import Certifier, equatorial
+from stabilab.unreduced.spin_up.elimination import conjugate, product, total
 from stabilab.unreduced.spin_up.form import forms_of
 
-from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
+from .scenes import EXAMPLE, numba, random_scene, rates_of, run, sphere
 
 STATE = np.array([6.0, 1.0, -1.0])
 
@@ -28,22 +29,72 @@ def places(field, states):
     return x, r2 * rho * u + 1j * field.s * r3 / rho * v
 
 
-def tables(scene):
+def tables(scene, fast):
     """Each number of the tables of a scene's fields, in bytes."""
-    form = forms_of(scene)[0]
-    fields = FixedCentre(form), moving_centre(form, scene)
-    return [np.asarray(item).tobytes() for field in fields for item in Certifier(field, (4, 6)).numbers]
+    form, round_ = forms_of(scene)[0], equatorial(scene)
+    fields = [FixedCentre(form), moving_centre(form, scene)] + [round_] * bool(round_)
+    return [np.asarray(item).tobytes() for field in fields
+            for orders in ((0, 2), (4, 6), (6, 9)) for item in Certifier(field, orders, fast).numbers]
 
 
-def test_a_second_scene_works_out_no_exponents_and_forgetting_them_changes_no_number(monkeypatch):
-    first, second = (random_scene(random.Random(n), 1.0) for n in (3, 4))
-    tables(first)
-    count = len(elimination._WORKED_OUT)
-    numbers = tables(second)
-    assert len(elimination._WORKED_OUT) == count and numbers != tables(first)
-    monkeypatch.setattr(elimination, "_WORKED_OUT", {})
-    monkeypatch.setattr(elimination, "MAX_BYTES", 100_000)  # forgotten again and again
-    assert tables(second) == numbers and 0 < len(elimination._WORKED_OUT) < count
+ROUND = Scene(Body((3, 2, 2)), Gyrostat((0.1, "1/2", 0)), ConstantTorque(("1/9", "-1/7", "1/5")))
+
+
+@numba
+@pytest.mark.parametrize("scene", [random_scene(random.Random(3), 1.0), random_scene(random.Random(4), 0.0), ROUND],
+                         ids=["wheel", "no wheel", "equator"])
+def test_tables_are_the_same_bytes_by_loops_and_by_numpy(scene):
+    assert tables(scene, True) == tables(scene, False)
+
+
+def sums_of(field, order, by):
+    """{(j, k, a, b): (c, m)} of what is added to a quantity, and {(a, b): {degree: bound}} of what is left of
+    its rate, by terms one by one in dicts: every product in turn, no grid and no half of a real sum."""
+    algebra, quantity = field.algebra, getattr(field, by)
+    lifted = -algebra.turn[0], -algebra.turn[1]
+    half = {key: (c, m) for key, c, m in quantity.rate}
+    rate = total(half, conjugate(half))
+    added = {}
+    while True:
+        levels = {key: algebra.level(*key[2:]) for key in rate if key[0] != key[1]}
+        lowest = min(levels.values(), default=np.inf)
+        if lowest > 4 * order // algebra.unit:
+            return added, rate
+        taken = {key: rate.pop(key) for key, level in levels.items() if level == lowest}
+        part = {(j, k, a + lifted[0], b + lifted[1]): (c * 1j * algebra.lift / (j - k), m * algebra.lift / abs(j - k))
+                for (j, k, a, b), (c, m) in taken.items()}
+        added |= part
+        zeta = {(j - 1, k, a, b): (c * j, m * j) for (j, k, a, b), (c, m) in part.items() if j}
+        other = {(j, k - 1, a, b): (c * k, m * k) for (j, k, a, b), (c, m) in part.items() if k}
+        along = total(product(zeta, algebra.carried), product(other, conjugate(algebra.carried)), algebra.slope(part))
+        rate = total(rate, product(along, algebra.x_rate), product(zeta, algebra.drift),
+                     product(other, conjugate(algebra.drift)))
+
+
+@pytest.mark.parametrize("scene", [random_scene(random.Random(5), 1.0), random_scene(random.Random(6), 0.0), ROUND],
+                         ids=["wheel", "no wheel", "equator"])
+@pytest.mark.parametrize("by", ["energy", "amplitude"])
+def test_tables_hold_what_an_elimination_term_by_term_finds(scene, by):
+    round_ = equatorial(scene)
+    for field in [FixedCentre(forms_of(scene)[0]), moving_centre(forms_of(scene)[0], scene)] + [round_] * bool(round_):
+        parts, quantity = field.parts, getattr(field, by)
+        tables, (added, left) = quantity.to(4, parts), sums_of(field, 4, by)
+        a, b, size = quantity.over
+        if quantity.drive is not None:
+            left.pop((0, 0, 0, 0), None)
+        first = {(j, k, r - field.algebra.turn[0], s): (c, m) for (j, k, r, s), c, m in quantity.added}
+        added |= first | conjugate(first)
+        for entries, (exponents, sums), up, over in ((added, tables[:2], (0, 0), 1.0),
+                                                     (left, tables[5:7], (-a, -b), size)):
+            expected = {}
+            for (j, k, r, s), (c, m) in entries.items():
+                key = j + k, (r + up[0]) * parts // 4, (s + up[1]) * parts // 4
+                expected[key] = expected.get(key, 0.0) + (abs(c) + 2.0**-32 * m) / over
+            got = {(degree, *exponents[:, n].tolist()): value for degree, row in enumerate(sums.tolist())
+                   for n, value in enumerate(row) if value}
+            assert got.keys() == {key for key, value in expected.items() if value}
+            # rounding of coefficients that cancel: 2^-32 of the majorant is in each sum, rounding is 2^-50 of it
+            assert all(abs(got[key] - value) < 1e-5 * value for key, value in expected.items() if value)
 
 
 def test_tables_are_of_one_type_also_where_they_hold_no_term():
