@@ -1,4 +1,4 @@
-"""What limits an answer of a case with a thruster stands in its fate, page and explorer; the times at a limit by
+"""What limits an answer of a case with a thruster stands in its fate and explorer; the times at a limit by
 SciPy, which shares no code."""
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ import stabilab as package
 from stabilab.answers.caveats import caveats_of
 from stabilab.case.read import load
 from stabilab.show.explore.session import Session
-from stabilab.show.report import one_case
 from tests.oracles.rigid import euler
 from tests.shared import craft_file, in_one_line
 from tests.show.explore.test_session import ask
@@ -71,14 +70,6 @@ def test_the_explorer_shows_what_limits_its_answer(files, name):
     answer = ask(Session(load(files[name])), moving=False)[0]
     assert told(name, f"{answer['headline']} {answer['note']}")
     assert ("no thruster fires; " in answer["headline"]) == (name == "silent")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", MOTION)
-def test_a_page_shows_what_limits_its_answer(files, tmp_path, name):
-    made = one_case.sections(load(files[name]), tmp_path, "case", deep=False)
-    assert told(name, f"{made['headline']} {' '.join(made['caveats'])} {made['uncertain']}")
-    assert ("no thruster fires; " in made["headline"]) == (name == "silent")
 
 
 def test_a_caveat_is_a_key_of_every_object_and_empty_where_nothing_limits_the_answer(stabilab, files,

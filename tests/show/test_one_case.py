@@ -57,7 +57,8 @@ def test_the_tiles_have_the_outcome_when_the_largest_rate_and_the_distance(tmp_p
         over = lambda t, w: np.hypot(np.hypot(*w[:2]), w[2]) - limit
         over.terminal = True
         return solve_ivp(euler(moments, wheel, torque), (0, end),
-                         [0.1, 0, 0.01], "DOP853", rtol=1e-11, atol=1e-13, events=over, max_step=end / 2000)
+                         [0.1, 0, 0.01], "DOP853", rtol=1e-11, atol=1e-13, events=over,
+                         t_eval=np.linspace(0, end, 4001))
     found = {}
     for name, torque in (("leaves", [0.0, 0, 3]), ("stays", [0.0, 0, 0.001])):
         case = read_text(f"{name}.toml", text.format(torque=torque))
