@@ -206,22 +206,23 @@ class Elimination:
         self.start = tuple(sorted({(algebra.level(a, b), j + k, (a + j + k) // 2 if algebra.sheared else 0)
                                    for (j, k, a, b), *_ in self.rate + self.added})) or ((0, 0, 0),)
 
-    def grid(self, order: int) -> kernel.Grid:
-        """The grid for everything up to x^-order."""
+    def grid(self, order: int) -> tuple[kernel.Grid, np.ndarray]:
+        """The grid for everything up to x^-order; the greatest degree of each level."""
         algebra, (one, two) = self.algebra, self.algebra.moves
-        lowest, last, levels, highest, degrees, low, high = _room(self.start, algebra.reach,
-                                                                  4 * order // algebra.unit)
+        lowest, last, highest, tops, low, high = _room(self.start, algebra.reach, 4 * order // algebra.unit)
+        degrees = max(tops)
         return kernel.Grid(
-            levels, 1 + max(highest, algebra.reach[-1][0]), one.levels if algebra.carried else 0, one.lowest,
-            1 + degrees, degrees // 2 + 1 + one.conjugate + two.conjugate,
+            len(tops), 1 + max(highest, algebra.reach[-1][0]), one.levels if algebra.carried else 0,
+            one.lowest, 1 + degrees, degrees // 2 + 1 + one.conjugate + two.conjugate,
             # a first product goes beyond by no more than one of its steps, and raises no degree
             1 + high + one.farthest - low + one.farthest, lowest, low - one.farthest, algebra.unit,
-            int(algebra.sheared), *algebra.turn, last, -1 if self.drive is None else self.drive - lowest)
+            int(algebra.sheared), *algebra.turn, last,
+            -1 if self.drive is None else self.drive - lowest), np.array(tops, np.int64)
 
     def to(self, order: int, parts: int, fast: bool = False) -> Tables:
         """Tables after everything oscillating up to x^-order, with exponents in that part of a whole. fast:
         by compiled code."""
-        functions, algebra, grid = ELIMINATE.functions(fast), self.algebra, self.grid(order)
+        functions, algebra, (grid, tops) = ELIMINATE.functions(fast), self.algebra, self.grid(order)
         one, two = algebra.moves
         size = grid.degrees * grid.conjugates * grid.columns
         table = np.zeros((3, (grid.present + grid.between) * size))
@@ -245,7 +246,7 @@ class Elimination:
         marks = np.zeros((2, pairs_of_exponents), np.int64)
         pairs = np.zeros(grid.degrees * grid.conjugates, np.int64)
         functions["eliminate"](
-            table, algebra.lift, np.array(grid, np.int64),
+            table, algebra.lift, np.array(grid, np.int64), tops,
             *one.placed(grid, grid.lifted if grid.between else 0), *two.placed(grid, 0), exponents, values,
             marks, pairs, counts, np.empty(size, np.int64), np.ones((5, size)), np.empty((3, size)))
         # of no terms one that is 0
@@ -261,8 +262,8 @@ class Elimination:
 @lru_cache(maxsize=256)  # the same for nearly all scenes
 def _room(start: tuple[tuple[int, int, int], ...], reach: tuple[tuple[int, int, int, int], ...], end: int):
     """How far terms come that begin with these levels, degrees and columns, where those up to the level `end`
-    are moved on: (lowest level; from there on the last that is moved, the number of levels, the highest at
-    the start; greatest degree, least and greatest column)."""
+    are moved on: (lowest level; from there on the last that is moved, the highest at the start; the greatest
+    degree of each level, -1 for none; least and greatest column)."""
     lowest, highest = min(start)[0], max(start)[0] - min(start)[0]
     last = end - lowest
     levels = 1 + max(highest, last + reach[-1][0])
@@ -277,4 +278,4 @@ def _room(start: tuple[tuple[int, int, int], ...], reach: tuple[tuple[int, int, 
             n = number + level
             degrees[n], low[n] = max(degrees[n], degree + more), min(low[n], least + lower)
             high[n] = max(high[n], most + upper)
-    return lowest, last, levels, highest, max(degrees), min(low), max(high)
+    return lowest, last, highest, tuple(degrees), min(low), max(high)

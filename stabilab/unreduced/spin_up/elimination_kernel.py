@@ -48,14 +48,14 @@ class Grid(NamedTuple):
 
 
 # --- By NumPy
-def take(rate: np.ndarray, base: int, number: int, lift: float, grid: Grid, exponents: np.ndarray,
+def take(rate: np.ndarray, base: int, number: int, top: int, lift: float, grid: Grid, exponents: np.ndarray,
          values: np.ndarray, counts: np.ndarray, slots: np.ndarray, powers: np.ndarray):
-    """A level taken out of the table, which begins at base. Half of its real sum is there: a term with j < k
-    is added to its conjugate first, and one with j = k to its own. Up to the last level i lift/(j - k) times
-    what oscillates is added to the quantity; the index and the exponents of each of these terms come to slots
-    and to the first rows of powers. All else is left of the rate. exponents (2, 6, .), values (2, 3, .),
-    counts: of what is added and what is left (how many terms of each, how many degrees of each); returns the
-    first of what is added."""
+    """A level taken out of the table, which begins at base and has degrees up to the top. Half of its real
+    sum is there: a term with j < k is added to its conjugate first, and one with j = k to its own. Up to the
+    last level i lift/(j - k) times what oscillates is added to the quantity; the index and the exponents of
+    each of these terms come to slots and to the first rows of powers. All else is left of the rate. exponents
+    (2, 6, .), values (2, 3, .), counts: of what is added and what is left (how many terms of each, how many
+    degrees of each); returns the first of what is added."""
     (equal, below, above), known = positions(grid)
     size, start, height = known.shape[1], int(counts[0]), grid.unit * (grid.lowest + number)
     level = rate[:, base:base + size]
@@ -172,11 +172,12 @@ def spell(exponents: np.ndarray, values: np.ndarray, n: int, marks: np.ndarray, 
 
 
 # --- The same as loops
-def take_in_turn(rate: np.ndarray, base: int, number: int, lift: float, grid: Grid, exponents: np.ndarray,
-                 values: np.ndarray, counts: np.ndarray, slots: np.ndarray, powers: np.ndarray):
+def take_in_turn(rate: np.ndarray, base: int, number: int, top: int, lift: float, grid: Grid,
+                 exponents: np.ndarray, values: np.ndarray, counts: np.ndarray, slots: np.ndarray,
+                 powers: np.ndarray):
     """As `take`."""
     start, height = counts[0], grid.unit * (grid.lowest + number)
-    for degree in range(grid.degrees):
+    for degree in range(top + 1):
         for k in range(min((degree >> 1) + 1, grid.conjugates)):
             row, apart = (degree * grid.conjugates + k) * grid.columns, degree - 2 * k
             mirrored = apart * grid.columns if degree - k < grid.conjugates else 0
@@ -286,7 +287,8 @@ LOOPS = {"take": take_in_turn, "spread": spread_in_turn, "collect": collect_in_t
 
 
 # --- From a rate to what is added and what is left
-def eliminate(table: np.ndarray, lift: float, fields: np.ndarray, moves: np.ndarray, factors: np.ndarray,
+def eliminate(table: np.ndarray, lift: float, fields: np.ndarray, tops: np.ndarray, moves: np.ndarray,
+              factors: np.ndarray,
               carried: np.ndarray, carried_factors: np.ndarray, exponents: np.ndarray, values: np.ndarray,
               marks: np.ndarray, pairs: np.ndarray, counts: np.ndarray, slots: np.ndarray, powers: np.ndarray,
               work: np.ndarray):
@@ -296,7 +298,7 @@ def eliminate(table: np.ndarray, lift: float, fields: np.ndarray, moves: np.ndar
     to the rate. counts (7,): of the terms and of the degrees of both lists, which have those of what was
     added before; of their different pairs a and b (numbered in marks (2, .)), and of the pairs j and k of
     what is added (in pairs). fields (15,): of the grid, for a tuple takes longer to hand over than all
-    arrays. slots, powers, work: to work in."""
+    arrays; tops: the greatest degree of each level. slots, powers, work: to work in."""
     grid = Grid(fields[0], fields[1], fields[2], fields[3], fields[4], fields[5], fields[6], fields[7],
                 fields[8], fields[9], fields[10], fields[11], fields[12], fields[13], fields[14])
     size = grid.degrees * grid.conjugates * grid.columns
@@ -304,12 +306,14 @@ def eliminate(table: np.ndarray, lift: float, fields: np.ndarray, moves: np.ndar
     turn = -1  # of the level in the table, whose levels are used again
     for number in range(grid.levels):
         turn = turn + 1 if turn + 1 < grid.present else 0
-        start = take(table, turn * size, number, lift, grid, exponents, values, counts, slots, powers)
+        start = take(table, turn * size, number, tops[number], lift, grid, exponents, values, counts, slots,
+                     powers)
         n, source, by, numbers = counts[0] - start, values[0], moves, factors
         base, levels, first = (behind, grid.between, 0) if grid.between else (0, grid.present, turn)
         for level in range(grid.between + 1):  # the first product, then from each of its levels
             if level:
-                n = collect(table, behind + (level - 1) * size, size, slots, work)
+                n = collect(table, behind + (level - 1) * size,
+                            (tops[number] + 1) * grid.conjugates * grid.columns, slots, work)
                 source, by, numbers, start = work, carried, carried_factors, 0
                 base, levels, first = 0, grid.present, turn + grid.lifted + level - 1
             spread(table, base, first, levels, size, n, slots, source, start, powers, by, numbers)
