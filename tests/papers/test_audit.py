@@ -350,6 +350,7 @@ def test_a_row_refuses_a_number_that_is_missing_unknown_or_unused():
             examine(PAPERS["constant-torque-gyrostat"], replace(row, options=row.options | {"numbers": numbers}))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name, equation, verdict, judged_by, exact", [
     # what each paper's text speaks of: its solution (41), a wheel of 15 to 25, polynomials of second degree
     ("newtonian-field-top", "text-fig2", "holds", "the paper's solution as printed", "not so"),

@@ -69,6 +69,7 @@ def views(case, motion, units):
     yield "\n".join(" ".join(row) for row in rows(case, motion, units))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", MANY)
 def test_no_bound_of_a_rate_is_printed_below_itself(name):
     case, motion = known(name)

@@ -166,7 +166,7 @@ def printed(folder, command, effects):
     return json.loads(result.stdout)
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize("command", [("classify",), ("simulate",), ("extremes",)], ids=lambda c: c[0])
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_a_case_file_with_a_zero_effect_prints_the_same_json_as_without_it(name, command, tmp_path):
