@@ -195,10 +195,10 @@ def test_every_effect_is_one_file_and_one_row_of_the_registry():
     files = {path.stem for path in (PACKAGE / "physics/effects").glob("*.py")} - {"__init__", "base"}
     assert files == {module for module, _ in REGISTRY.values()} and len(files) == len(REGISTRY)
     assert all(effect_class(name).name == name for name in REGISTRY)
-    # these have what people write in place of the name of an effect, and what cures it, for messages alone
+    # what people write in place of the name of an effect, or of a value of it, for messages alone
     rooms = [*(PACKAGE / "integrate").rglob("*.py"),
              *(one for one in (PACKAGE / "case").rglob("*.py") if one.name not in ("aliases.py", "cures.py")),
-             *(PACKAGE / f"physics/{name}.py" for name in ("equations", "to_numpy", "scene", "states"))]
+             *(PACKAGE / f"physics/{name}.py" for name in ("equations", "to_numpy", "body", "scene", "states"))]
     naming = {path.name for path in rooms for name in ("rate_damper", "eddy_currents")
               if name in path.read_text(encoding="utf-8")}
     assert not naming
