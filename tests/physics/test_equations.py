@@ -16,7 +16,7 @@ from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.physics.equations import derive, invariants
+from stabilab.physics.equations import _varies, derive, invariants
 from stabilab.physics.to_numpy import extent, form, to_numpy
 from stabilab.show.text.scene import latex, lines
 
@@ -151,6 +151,22 @@ def test_equations_read_as_text_and_latex():
     equations = derive(Scene(BODY, WHEEL, THRUST))
     assert lines(equations)[0] == "D1 omega1' = M1 + lambda2*omega3 + omega2*omega3*(D2 - D3)"
     assert r"D_{1} \dot{\omega_{1}} &=" in latex(equations)
+
+
+def test_long_equations_are_named_and_not_expanded():
+    """A damper's mass on an oblique line: its rates have thousands of operations each. The law by hand: no torque from
+    outside, so |H| stays, and nothing else does."""
+    scene = Scene(Body(("1.2", "1.5", 2), 10), DamperMass("0.5", ("0.4", "0.1", "-0.05"), ("0.3", "0.2", 1), 2, "0.3", 10))
+    written = lines(derive(scene))
+    assert written[0] == "D1 omega1' = too long for a page: stabilab.derive(case.scene).rhs" and written[3] == "xm' = vm"
+    assert latex(derive(scene)).count("too long for a page") == 4
+    assert [law.name for law in invariants(scene)] == ["momentum"]
+
+
+@pytest.mark.parametrize("text, varies", [("x", True), ("(x + 1)**2 - x**2 - 2*x", False), ("x*y/(1 + x)", True), ("3", False)])
+def test_what_varies_with_the_state_is_told_by_two_points(text, varies):
+    from sympy import sympify
+    assert _varies(sympify(text)) is varies
 
 
 @pytest.mark.parametrize("scene, names", [

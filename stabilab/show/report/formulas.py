@@ -6,7 +6,7 @@ from html import unescape
 from typing import Any
 
 from ...physics.equations import Equations
-from ..text.scene import PRODUCTS, right_side
+from ..text.scene import PRODUCTS, TOO_LONG, right_side
 
 # symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next
 # line
@@ -20,7 +20,8 @@ def equations_of_motion(equations: Equations) -> list:
     rows = []
     for number, (moment, part) in enumerate(zip(equations.inertia, equations.state)):
         factor = "" if moment == 1 else inner(moment)
-        sum_of_torques = in_lines(right_side(equations, number))
+        side = right_side(equations, number)
+        sum_of_torques = f"<mtext>{TOO_LONG}</mtext>" if side is None else in_lines(side)
         rows.append(display(f"{factor}{_printer().dotted(part)}<mo>=</mo>{sum_of_torques}"))
     return rows
 

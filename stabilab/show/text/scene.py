@@ -193,6 +193,8 @@ def filled(columns: Sequence[Column], answers: Sequence) -> tuple[list[tuple[str
     return [columns[n][:2] for n in retained], [[row[n] for n in retained] for row in rows]
 
 
+TOO_LONG = "too long for a page"  # of a formula
+LONGEST = 1000  # operations of a rate, up to which it is written
 RATIO_LETTERS = 12  # up to which a ratio is printed as such, not as a decimal
 # parameters whose names are products
 PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2",
@@ -326,10 +328,11 @@ def _short(expression: Expr) -> str:
 
 
 def _jacobian(case: Case, equations: Equations) -> list[str]:
-    """A row of the matrix a line; that of a liquid in a cavity would fill pages."""
+    """A row of the matrix a line; that of a liquid in a cavity, or of long equations, would fill pages."""
     from sympy import factor_terms
-    if "liquid_cavity" in (effect.name for effect in case.scene.effects):
-        return ["  too long for a page: stabilab.derive(case.scene).jacobian"]
+    if ("liquid_cavity" in (effect.name for effect in case.scene.effects)
+            or None in (right_side(equations, i) for i in range(len(equations.state)))):
+        return [f"  {TOO_LONG}: stabilab.derive(case.scene).jacobian"]
     rows = equations.jacobian.applyfunc(factor_terms).tolist()
     return [f"  ({', '.join(lettered(_products(str(entry))) for entry in row)})" for row in rows]
 
@@ -343,14 +346,19 @@ def _products(formula: str) -> str:
 def lines(equations: Equations) -> tuple[str, ...]:
     """The equations of motion as plain text, one line each."""
     factor = lambda d: "" if d == 1 else f"({d}) " if d.is_Add else f"{d} "
-    return tuple(f"{factor(d)}{x}' = {right_side(equations, i)}"
-                 for i, (d, x) in enumerate(zip(equations.inertia, equations.state)))
+    sides = (right_side(equations, i) for i in range(len(equations.state)))
+    long = f"{TOO_LONG}: stabilab.derive(case.scene).rhs"
+    return tuple(f"{factor(d)}{x}' = {long if side is None else side}"
+                 for d, x, side in zip(equations.inertia, equations.state, sides))
 
 
-def right_side(equations: Equations, i: int) -> Symbolic:
-    """The rate of component i, times its moment of inertia: a sum ordered by the powers of the state."""
+def right_side(equations: Equations, i: int) -> Symbolic | None:
+    """The rate of component i, times its moment of inertia: a sum ordered by the powers of the state; None
+    where it is too long to be read."""
     from sympy import Poly, PolynomialError, prod
     total = sum(part[i] for part in equations.torques.values()) if i < 3 else equations.rhs[i]
+    if total and total.count_ops() > LONGEST and not total.is_polynomial(*equations.state):
+        return None  # to expand it would take minutes
     try:
         terms = Poly(total, *equations.state).terms()
     except PolynomialError:
@@ -361,8 +369,10 @@ def right_side(equations: Equations, i: int) -> Symbolic:
 def latex(equations: Equations) -> str:
     """The equations of motion as a LaTeX align* environment."""
     factor = lambda d: "" if d == 1 else rf"\left({tex(d)}\right) " if d.is_Add else f"{tex(d)} "
-    rows = [rf"{factor(d)}\dot{{{tex(x)}}} &= {tex(right_side(equations, i))}"
-            for i, (d, x) in enumerate(zip(equations.inertia, equations.state))]
+    sides = (right_side(equations, i) for i in range(len(equations.state)))
+    rows = [rf"{factor(d)}\dot{{{tex(x)}}} &= "
+            + (rf"\text{{{TOO_LONG}}}" if side is None else tex(side))
+            for d, x, side in zip(equations.inertia, equations.state, sides)]
     return "\\begin{align*}\n" + " \\\\\n".join(rows) + "\n\\end{align*}"
 
 
