@@ -194,3 +194,11 @@ def test_a_run_has_it_as_a_column_in_every_view(name, stabilab):
     printed = json.loads(stabilab("simulate", str(CASES / f"{name}.toml"), "--at", "0,10,50", "--nutation", "y", "--json")[1])
     assert printed["nutation_axis"] == "y"
     np.testing.assert_allclose(printed["state"]["nutation"], run.state["nutation"], rtol=1e-9)
+
+
+def test_a_damper_that_turns_in_a_body_at_rest_is_no_equilibrium():
+    """By hand: H = 0.1 (1, 2, 3) kg m^2/s at the start, nearest to z."""
+    with style.drawing():
+        ax = nutation({"body": {"inertia": [3, 2, 1]}, "effects": {"viscous_damper": {"inertia": "0.1", "coefficient": "0.1"}},
+                       "motion": {"angular_velocity": [0, 0, 0], "damper": [1, 2, 3], "span": [0, 9]}})
+        assert curve(ax)[1][0] == pytest.approx(np.degrees(np.arccos(3 / 14**0.5)), rel=1e-9)

@@ -126,8 +126,9 @@ class Subject:
         """What is known of the motion: its fate, period and extremes."""
         if self.known is not None:
             return self.known
-        gamma = tuple(self.blocks.get("gamma", ())) if "gamma" in self.scene.blocks else ()
-        result = motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
+        own = {name: row for name, row in self.blocks.items() if name in self.scene.blocks}
+        start = {"omega": self.state, **own} if own else self.state
+        result = motion(self.scene, start, self.span, exact=self.exact_state)
         return result if self.case is None else headline.judged(self.case, result)
 
     @cached_property
