@@ -143,7 +143,8 @@ def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
     supplied = top.data["motion"].get("angular_velocity", ())
     plain = [shown(value) for value in supplied
              if (not isinstance(value, str) or isinstance(value, Written)) and float(value)]
-    hint = (f'; a number alone is in rad/s, of degrees write "{plain[0]} deg/s"' if plain else "")
+    hint = ("" if not plain else
+            f'; a number alone in angular_velocity is in rad/s, of degrees write "{plain[0]} deg/s"')
     table, degrees = Table(("limits",), top.data["limits"], top.faults), 180 / pi()
     if limits.rate is not None and dot(state, state) > limits.rate**2:
         _too_low(table, "", limits.rate, sqrt_fraction(dot(state, state)), degrees, hint, "rate")

@@ -44,7 +44,7 @@ READ = "read"
 # what is replaced, by what, line and key of the fault, words of the cure; READ: what stands there is clear
 FIFTY_FIVE = [
     (RATES, "[0.02, -0.061, 0.004]", READ), (RATES, "[2.5, -4.0, 0.5]", 23, "limits.rate",
-                                             'a number alone is in rad/s, of degrees write "2.5 deg/s"'),
+                                             'a number alone in angular_velocity is in rad/s, of degrees write "2.5 deg/s"'),
     (TENSOR, "[[412000000.0, -6300000, 11800000], [-6300000, 297500000, 4400000], [11800000, 4400000, "
      "351200000]]", READ),
     (TENSOR, '[["4.12e8 kg mm^2", "-6.3e6 kg mm^2", "1.18e7 kg mm^2"], ["-6.3e6 kg mm^2", "2.975e8 kg mm^2", '
