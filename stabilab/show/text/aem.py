@@ -84,7 +84,7 @@ def message(case: Case, run: Simulation, epoch: tuple[datetime, Fraction]) -> st
             ("ATTITUDE_TYPE", "QUATERNION/ANGVEL"), ("ANGVEL_FRAME", BODY)]
     space = "space is the inertial frame of the run; the attitude at time 0 is that of [motion], or identity"
     comments = [f"COMMENT {line}" for line in (space, *(item.words for item in case.caveats))]
-    lines = [f"{date} {' '.join(f'{v:.16g}' for v in (*q, *np.degrees(w)))}"
+    lines = [f"{date} {' '.join(f'{v:.16g}' for v in (*(q + 0.0), *(np.degrees(w) + 0.0)))}"  # no -0
              for date, q, w in zip(dates, quaternions, rates)]
     return "\n".join(["CCSDS_AEM_VERS = 2.0", *[f"COMMENT {remark}"] * bool(remark),
                       *(f"{key} = {value}" for key, value in head), "", "META_START", *comments,
