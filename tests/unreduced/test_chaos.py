@@ -64,22 +64,24 @@ def test_without_heyoka_scipy_gives_the_same(monkeypatch):
 @pytest.mark.slow
 def test_a_heavy_top_is_chaotic_at_the_rate_at_which_two_of_its_motions_part():
     """Two runs of DOP853 of Euler's and Poisson's equations by hand, brought near again each 5 units of time
-    (Benettin's method)."""
+    (Benettin's method). Rates of single runs of 2,000 scatter by a fifth, as rounding has it: those of four
+    starts, on the mean."""
     from scipy.integrate import solve_ivp
 
-    rate = with_a_direction(D, arm=ARM)
-    near, total, a = 1e-7, [], np.array(WILD)
-    b = a + near * np.array([1, -1, 1, 0, 0, 0]) / 3**0.5
-    for _ in range(300):
-        a, b = (solve_ivp(rate, (0, 5), x, "DOP853", rtol=1e-9, atol=1e-10).y[:, -1] for x in (a, b))
-        apart = np.linalg.norm(b - a)
-        total.append(np.log(apart / near))
-        b = a + (b - a) * near / apart
-    expected = np.sum(total) / 1500
-    found = megno(TOP, WILD, 1000)
-    rates = 2 * found.megno[0] / found.times
-    assert rates[-1] == pytest.approx(expected,
-                                      rel=0.25) and found.megno[0, -1] > 1.6 * found.megno[0, -2] > 10
+    rate, near = with_a_direction(D, arm=ARM), 1e-7
+    starts = [np.array(WILD) + [shift, 0, 0, 0, 0, 0] for shift in (0, 1e-3, 2e-3, 3e-3)]
+    total = []
+    for a in starts:
+        b = a + near * np.array([1, -1, 1, 0, 0, 0]) / 3**0.5
+        for _ in range(400):
+            a, b = (solve_ivp(rate, (0, 5), x, "DOP853", rtol=1e-9, atol=1e-10).y[:, -1] for x in (a, b))
+            apart = np.linalg.norm(b - a)
+            total.append(np.log(apart / near))
+            b = a + (b - a) * near / apart
+    found = megno(TOP, starts, 1000)
+    rates = 2 * found.megno[:, -1] / found.times[-1]
+    assert rates.mean() == pytest.approx(np.mean(total) / 5, rel=0.25)
+    assert (found.megno[:, -1] > 1.6 * found.megno[:, -2]).all() and (found.megno[:, -2] > 10).all()
 
 
 def test_the_same_top_near_its_rest_is_regular():
