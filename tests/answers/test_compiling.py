@@ -16,9 +16,7 @@ from stabilab.numbers.numba_door import installed
 
 TASKS_ONCE_MORE = """
 from stabilab.answers.motions.compiling import TASKS, compile_all, kernels
-for kernel in kernels():
-    kernel._look()
-print(all(kernel.ready for kernel in kernels()))
+print(all(kernel.on_disk() for kernel in kernels()))
 for task in TASKS:
     task()
 stats = [function.stats for kernel in kernels() for function in kernel.functions(True).values()
