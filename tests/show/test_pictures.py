@@ -176,23 +176,12 @@ def test_triangles_of_a_size_whose_square_is_no_double_are_not_lost():
     assert small.triangles.tolist() == large.triangles.tolist()
 
 
-def test_places_that_sorting_mistakes_for_one_stay_two_vertices():
-    """Two places whose sorting keys b0 + t (b1 + t b2), of bits b that are mixed, are equal."""
-    def mixed(value):
-        bits = struct.unpack("<Q", struct.pack("<d", value))[0]
-        return bits ^ bits >> 29
-    one = (0.75, 0.5, -0.25)
-    for n in range(1, 1000):
-        y = 1.0 + n / 1024
-        x = (mixed(one[0]) + mesh.MULTIPLIER * (mixed(one[1]) - mixed(y))) % 2**64
-        x ^= x >> 29 ^ x >> 58  # the bits before they were mixed
-        other = struct.unpack("<d", struct.pack("<Q", x))[0], y, one[2]
-        if 1e-3 < abs(other[0]) < 1e3:
-            break
-    assert (mixed(other[0]) - mixed(one[0]) + mesh.MULTIPLIER * (mixed(y) - mixed(one[1]))) % 2**64 == 0
-    points = np.array([[one, (1.0, 2.0, 3.0)], [(3.0, 1.0, 2.0), other], [one, (2.0, 2.0, 0.0)]])
-    made = mesh.triangulate(Branch("pair", points, np.zeros((3, 2)), points[:, 0], points[:, 0], np.arange(3.0)))
-    assert made.points.tolist() == points.reshape(-1, 3)[[0, 1, 2, 3, 5]].tolist()
+def test_equal_places_are_one_vertex_and_the_nearest_others_two():
+    """Places that differ in the last digit of one coordinate alone, and two zeros, by hand."""
+    one, zero, other = (0.75, 0.5, -0.25), (0.0, 2.0, 3.0), (0.75, 0.5, np.nextafter(-0.25, 0))
+    points = np.array([[one, zero], [(3.0, 1.0, 2.0), other], [one, (-0.0, 2.0, 3.0)], [other, (2.0, 2.0, 0.0)]])
+    made = mesh.triangulate(Branch("pair", points, np.zeros((4, 2)), points[:, 0], points[:, 0], np.arange(4.0)))
+    assert made.points.tolist() == points.reshape(-1, 3)[[0, 1, 2, 3, 7]].tolist()
 
 
 def test_stl_and_glb_hold_every_triangle():
